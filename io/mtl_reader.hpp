@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/warnings.hpp"
+
+namespace atlasgauge {
+
+/// A material, reduced to what measuring needs.
+struct Material {
+  std::string name;
+  /// `map_Kd` as spelled, options skipped, backslashes turned into slashes.
+  std::optional<std::string> image;
+};
+
+/// All `newmtl` of a file, in order; of two equal names both are listed. Throws Error(kInput).
+std::vector<Material> read_mtl(const std::string& path, Warnings& warnings);
+
+}  // namespace atlasgauge
