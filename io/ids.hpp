@@ -17,9 +17,9 @@ enum class SlotId : std::uint32_t {};
 template <class Id>
 inline constexpr Id kNone = static_cast<Id>(std::numeric_limits<std::uint32_t>::max());
 
-/// Largest number of positions, texture coordinates or faces in one model: one bit of a face index
-/// is kept free for the parity that labels carry.
-inline constexpr std::uint64_t kMaxElements = (std::uint64_t{1} << 31) - 1;
+/// Largest number of positions, texture coordinates or faces in one model. It leaves two bits of a
+/// face index free for the flags that labels carry, and lets all corners be numbered in 32 bits.
+inline constexpr std::uint64_t kMaxElements = (std::uint64_t{1} << 30) - 1;
 
 template <class Id>
 constexpr std::uint32_t raw(Id id) {

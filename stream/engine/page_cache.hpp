@@ -1,0 +1,102 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "stream/engine/spill.hpp"
+
+namespace atlasgauge {
+
+/// Which pages of a table a direct-mapped cache of `sets` pages holds.
+class PageTags {
+ public:
+  explicit PageTags(std::size_t sets) : tags_(std::max<std::size_t>(1, sets), kEmpty) {}
+
+  std::size_t set_of(std::uint32_t page) const { return page % tags_.size(); }
+  /// Whether the page was there; afterwards it is.
+  bool access(std::uint32_t page) {
+    std::uint32_t& tag = tags_[set_of(page)];
+    if (tag == page) return true;
+    tag = page;
+    return false;
+  }
+
+ private:
+  static constexpr std::uint32_t kEmpty = ~std::uint32_t{0};
+  std::vector<std::uint32_t> tags_;
+};
+
+/// Pages of a table: a whole number of records that is also a whole number of I/O units. Pages end at
+/// block ends.
+template <class T>
+struct PageLayout {
+  static constexpr std::size_t kRecords = sizeof(T) >= 16 ? 512 : 2048;
+  static constexpr std::size_t kBytes = kRecords * sizeof(T);
+  static_assert(kBytes % Scratch::kAlignment == 0);
+
+  explicit PageLayout(const Spill<T>& table)
+      : records_per_block(static_cast<std::uint32_t>(table.records_per_block())),
+        pages_per_block(
+            static_cast<std::uint32_t>((records_per_block + kRecords - 1) / kRecords)) {}
+
+  std::uint32_t page_of(std::uint32_t record) const {
+    const std::uint32_t block = record / records_per_block;
+    return block * pages_per_block +
+           (record - block * records_per_block) / static_cast<std::uint32_t>(kRecords);
+  }
+  std::uint32_t in_page(std::uint32_t record) const {
+    return record % records_per_block % static_cast<std::uint32_t>(kRecords);
+  }
+
+  std::uint32_t records_per_block;
+  std::uint32_t pages_per_block;
+};
+
+/// Random reads of a table through a cache of pages, for one thread. Resident blocks are read in
+/// place.
+template <class T>
+class PageCache {
+ public:
+  PageCache(const Spill<T>& table, std::uint64_t memory_bytes)
+      : table_(&table),
+        layout_(table),
+        tags_(memory_bytes / PageLayout<T>::kBytes),
+        pages_(std::max<std::size_t>(1, memory_bytes / PageLayout<T>::kBytes)) {}
+
+  const T& at(std::uint32_t record) {
+    const std::uint32_t page = layout_.page_of(record);
+    Page& slot = pages_[tags_.set_of(page)];
+    if (!tags_.access(page)) load(page, slot);
+    return slot.records[layout_.in_page(record)];
+  }
+
+ private:
+  struct Page {
+    AlignedBytes memory;
+    const T* records = nullptr;
+  };
+
+  void load(std::uint32_t page, Page& slot) {
+    const Scratch& scratch = *table_->scratch();
+    const std::uint32_t block = page / layout_.pages_per_block;
+    const std::size_t offset = (page % layout_.pages_per_block) * PageLayout<T>::kBytes;
+    if (const std::byte* bytes = scratch.resident(table_->block(block))) {
+      slot.records = reinterpret_cast<const T*>(bytes + offset);
+      return;
+    }
+    if (!slot.memory) slot.memory = AlignedBytes(PageLayout<T>::kBytes);
+    const std::size_t end =
+        std::min(offset + PageLayout<T>::kBytes, table_->records_in_block(block) * sizeof(T));
+    scratch.read(table_->block(block), offset, slot.memory.data(), end - offset);
+    slot.records = reinterpret_cast<const T*>(slot.memory.data());
+  }
+
+  const Spill<T>* table_;
+  PageLayout<T> layout_;
+  PageTags tags_;
+  std::vector<Page> pages_;
+};
+
+}  // namespace atlasgauge

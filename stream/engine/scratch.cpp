@@ -1,0 +1,152 @@
+#include "stream/engine/scratch.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <new>
+
+#include "io/error.hpp"
+
+namespace atlasgauge {
+namespace {
+
+std::size_t rounded_up(std::size_t bytes) {
+  return (bytes + Scratch::kAlignment - 1) / Scratch::kAlignment * Scratch::kAlignment;
+}
+
+/// A file that has no name from the start, or loses it at once where the file system needs one.
+int open_unnamed(const std::string& directory, int flags) {
+  const int file = ::open(directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC | flags, 0600);
+  if (file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR)) return file;
+  std::string name = directory + "/atlasgauge-XXXXXX";
+  const int named = ::mkostemp(name.data(), O_CLOEXEC | flags);
+  if (named >= 0) ::unlink(name.c_str());
+  return named;
+}
+
+}  // namespace
+
+AlignedBytes::AlignedBytes(std::size_t bytes) : size_(rounded_up(bytes)) {
+  data_.reset(static_cast<std::byte*>(std::aligned_alloc(Scratch::kAlignment, size_)));
+  if (data_ == nullptr) throw std::bad_alloc();
+}
+
+void AlignedBytes::Free::operator()(std::byte* p) const { std::free(p); }
+
+Scratch::Scratch(const Options& options, MemoryBudget& budget)
+    : directory_(options.directory),
+      block_bytes_(rounded_up(options.block_bytes)),
+      resident_blocks_(static_cast<std::uint32_t>(options.resident_bytes / block_bytes_)) {
+  if (resident_blocks_ == 0) return;
+  const std::uint64_t pool_bytes = std::uint64_t{resident_blocks_} * block_bytes_;
+  pool_reservation_ = budget.reserve(pool_bytes, "the resident part of scratch");
+  pool_ = AlignedBytes(pool_bytes);
+}
+
+Scratch::~Scratch() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void Scratch::open_file() {
+  file_ = open_unnamed(directory_, O_DIRECT);
+  if (file_ < 0 && errno == EINVAL) file_ = open_unnamed(directory_, 0);
+  if (file_ < 0) {
+    throw Error(ErrorKind::kResource, directory_, 0,
+                "cannot make a scratch file: " + errno_text() +
+                    "; give a writable directory with --tmp-dir");
+  }
+}
+
+Scratch::BlockId Scratch::allocate() {
+  const std::lock_guard lock(mutex_);
+  peak_blocks_ = std::max(peak_blocks_, ++live_blocks_);
+  const auto take = [](std::vector<BlockId>& list) {
+    const BlockId block = list.back();
+    list.pop_back();
+    return block;
+  };
+  if (!free_resident_.empty()) return take(free_resident_);
+  if (next_resident_ < resident_blocks_) return next_resident_++;
+  ++spilled_blocks_;
+  if (!free_on_disk_.empty()) return take(free_on_disk_);
+  if (file_ < 0) open_file();
+  return resident_blocks_ + next_on_disk_++;
+}
+
+void Scratch::free(BlockId block) {
+  const std::lock_guard lock(mutex_);
+  --live_blocks_;
+  (block < resident_blocks_ ? free_resident_ : free_on_disk_).push_back(block);
+}
+
+std::byte* Scratch::resident(BlockId block) const {
+  if (block >= resident_blocks_) return nullptr;
+  return pool_.data() + std::uint64_t{block} * block_bytes_;
+}
+
+std::uint64_t Scratch::file_offset(BlockId block) const {
+  return std::uint64_t{block - resident_blocks_} * block_bytes_;
+}
+
+void Scratch::write(BlockId block, const std::byte* from, std::size_t bytes) {
+  const std::size_t size = rounded_up(bytes);
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t n = ::pwrite(file_, from + done, size - done,
+                               static_cast<off_t>(file_offset(block) + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      throw Error(ErrorKind::kResource, directory_, 0,
+                  fmt::format("cannot write scratch ({} MiB in use): {}; free space there or give "
+                              "another directory with --tmp-dir",
+                              peak_bytes() >> 20, errno_text()));
+    }
+    done += static_cast<std::size_t>(n);
+  }
+  const std::lock_guard lock(mutex_);
+  written_bytes_ += size;
+}
+
+void Scratch::read(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const {
+  const std::size_t size = rounded_up(bytes);
+  std::size_t done = 0;
+  while (done < bytes) {
+    const ssize_t n =
+        ::pread(file_, to + done, size - done, static_cast<off_t>(file_offset(block) + offset + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      throw Error(ErrorKind::kResource, directory_, 0,
+                  "cannot read scratch back: " + (n == 0 ? "it is cut short" : errno_text()));
+    }
+    done += static_cast<std::size_t>(n);
+  }
+  const std::lock_guard lock(mutex_);
+  read_bytes_ += size;
+}
+
+std::uint64_t Scratch::written_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return written_bytes_;
+}
+
+std::uint64_t Scratch::read_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return read_bytes_;
+}
+
+std::uint64_t Scratch::peak_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return peak_blocks_ * block_bytes_;
+}
+
+std::uint64_t Scratch::spilled_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return spilled_blocks_ * block_bytes_;
+}
+
+}  // namespace atlasgauge

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "stream/engine/budget.hpp"
+
+namespace atlasgauge {
+
+/// Memory aligned for direct I/O.
+class AlignedBytes {
+ public:
+  AlignedBytes() = default;
+  explicit AlignedBytes(std::size_t bytes);
+  std::byte* data() const { return data_.get(); }
+  std::size_t size() const { return size_; }
+  explicit operator bool() const { return data_ != nullptr; }
+
+ private:
+  struct Free {
+    void operator()(std::byte* p) const;
+  };
+  std::unique_ptr<std::byte, Free> data_;
+  std::size_t size_ = 0;
+};
+
+/// Where everything that does not fit in memory goes: one store of equal blocks.
+///
+/// The first blocks live in memory (the resident pool), the others in one file without a name, so
+/// nothing is left behind however the run ends. Freed blocks are used again, resident ones first:
+/// stages that free their input as they read it keep the file small, and a model that fits in the
+/// pool never touches the disk. Stages are written as if every block were on disk.
+///
+/// The file is opened for direct I/O where the file system allows: pages that pass through the page
+/// cache cost several times more CPU.
+/// Thread-safe; distinct blocks may be read and written at the same time.
+class Scratch {
+ public:
+  using BlockId = std::uint32_t;
+  static constexpr std::size_t kAlignment = 4096;
+
+  struct Options {
+    std::string directory;
+    std::size_t block_bytes = 256 << 10;  ///< multiple of kAlignment
+    std::uint64_t resident_bytes = 0;     ///< size of the resident pool; reserved from the budget
+  };
+
+  Scratch(const Options& options, MemoryBudget& budget);
+  ~Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  std::size_t block_bytes() const { return block_bytes_; }
+
+  BlockId allocate();
+  void free(BlockId block);
+
+  /// Address of a resident block; null for a block on disk.
+  std::byte* resident(BlockId block) const;
+  /// Writes the first `bytes` of a block on disk; `from` is aligned, and may be read up to the next
+  /// multiple of kAlignment.
+  void write(BlockId block, const std::byte* from, std::size_t bytes);
+  /// Reads `bytes` from `offset` of a block on disk. `to` and `offset` are aligned, `to` has room up
+  /// to the next multiple of kAlignment.
+  void read(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const;
+
+  std::uint64_t written_bytes() const;
+  std::uint64_t read_bytes() const;
+  /// Largest number of bytes that blocks, resident or not, held at one time.
+  std::uint64_t peak_bytes() const;
+  /// Blocks handed out that did not fit in the pool, times block size.
+  std::uint64_t spilled_bytes() const;
+
+ private:
+  std::uint64_t file_offset(BlockId block) const;
+  void open_file();
+
+  const std::string directory_;
+  const std::size_t block_bytes_;
+  const std::uint32_t resident_blocks_;
+  Reservation pool_reservation_;
+  AlignedBytes pool_;
+  int file_ = -1;
+
+  mutable std::mutex mutex_;
+  std::vector<BlockId> free_resident_;
+  std::vector<BlockId> free_on_disk_;
+  BlockId next_resident_ = 0;
+  BlockId next_on_disk_ = 0;
+  std::uint64_t live_blocks_ = 0;
+  std::uint64_t peak_blocks_ = 0;
+  std::uint64_t spilled_blocks_ = 0;
+  std::uint64_t written_bytes_ = 0;
+  mutable std::uint64_t read_bytes_ = 0;
+};
+
+}  // namespace atlasgauge

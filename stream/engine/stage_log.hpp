@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "stream/engine/budget.hpp"
+#include "stream/engine/scratch.hpp"
+
+namespace atlasgauge {
+
+/// What one stage cost. CPU is user + system time of the whole process.
+struct StageCost {
+  std::string name;
+  double wall_seconds = 0;
+  double cpu_seconds = 0;
+  std::uint64_t spilled_bytes = 0;  ///< blocks that did not fit in memory
+  std::uint64_t written_bytes = 0;  ///< to the scratch file
+  std::uint64_t read_bytes = 0;
+};
+
+/// Hears how far a stage is: its name and a fraction in [0, 1].
+using Progress = std::function<void(const std::string& stage, double fraction)>;
+
+/// Costs of the stages of a run, in order.
+class StageLog {
+ public:
+  explicit StageLog(const Scratch& scratch, Progress progress = {})
+      : scratch_(scratch), progress_(std::move(progress)) {}
+
+  /// Lives as long as the stage runs.
+  class Stage {
+   public:
+    Stage(StageLog& log, std::string name, std::uint64_t total_work = 0);
+    ~Stage();
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+    /// `done` of the total work; to be called by one thread at a time.
+    void progress(std::uint64_t done);
+
+   private:
+    StageLog& log_;
+    StageCost before_;
+    std::uint64_t total_work_;
+    int shown_percent_ = -1;
+  };
+
+  const std::vector<StageCost>& stages() const { return stages_; }
+
+ private:
+  const Scratch& scratch_;
+  Progress progress_;
+  std::vector<StageCost> stages_;
+};
+
+}  // namespace atlasgauge

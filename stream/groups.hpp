@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "stream/mesh/triangle.hpp"
+
+namespace atlasgauge {
+
+// The groups that the stages make and measures add up. Levels are those of SPEC section 1.
+
+/// A raw edge: an unordered pair of vertex indices, and the faces on it.
+struct RawEdge {
+  std::uint64_t faces;
+  double length_3d;  ///< model units
+  bool coherent;     ///< two faces, which run it in opposite directions
+};
+
+/// A uv edge: an unordered pair of (welded vertex, u, v, texture).
+struct UvEdge {
+  std::uint64_t faces;
+  double length_texels;  ///< of its first face; 0 where that has no UV triangle
+};
+
+/// A seam edge, both of its faces in charts of nonzero UV area.
+struct SeamEdge {
+  double length_3d;  ///< model units
+  bool sampled;      ///< both sides have a UV triangle within reach and a readable image
+};
+
+/// The corners at one vertex, at the raw level.
+struct VertexStar {
+  std::uint64_t corners;
+  std::uint64_t boundary_edges;
+  bool nonmanifold_edge;          ///< some edge at it has more than two faces
+  bool one_fan;                   ///< its faces are joined across its edges into one fan
+  std::uint64_t duplicate_faces;  ///< faces, of which it is the smallest vertex, that repeat another
+};
+
+/// A connected component of faces over raw edges.
+struct Component {
+  std::uint64_t faces;
+  bool orientable;
+};
+
+/// A connected component of faces over uv edges.
+struct Chart {
+  FaceId first_face;  ///< the number of the chart
+  std::uint64_t faces;
+  bool null;        ///< every face has UV area 0
+  bool orientable;  ///< its faces can be flipped to run coherently
+  std::uint64_t folds;
+};
+
+/// A value with its weight, of which the exact weighted percentiles are taken.
+struct Sample {
+  double value;   ///< not negative
+  double weight;  ///< not negative
+};
+
+/// Takes the groups of one worker. Calls to one sink come from one thread at a time.
+class GroupSink {
+ public:
+  virtual ~GroupSink() = default;
+  virtual void accept(std::span<const Triangle> triangles) = 0;
+  virtual void accept(std::span<const RawEdge> edges) = 0;
+  virtual void accept(std::span<const UvEdge> edges) = 0;
+  virtual void accept(std::span<const SeamEdge> edges) = 0;
+  virtual void accept(std::span<const VertexStar> stars) = 0;
+  virtual void accept(std::span<const Component> components) = 0;
+  virtual void accept(std::span<const Chart> charts) = 0;
+  /// The samples that a distribution takes of these triangles are appended.
+  virtual void sample(std::size_t distribution, std::span<const Triangle> triangles,
+                      std::vector<Sample>& samples) const = 0;
+};
+
+/// One sink a worker, and the names of the distributions they sample.
+class GroupSinks {
+ public:
+  virtual ~GroupSinks() = default;
+  virtual GroupSink& of_worker(std::size_t worker) = 0;
+  virtual std::vector<std::string> distributions() const = 0;
+};
+
+/// Collects groups and hands them over a few hundred at a time.
+template <class Group>
+class GroupBuffer {
+ public:
+  explicit GroupBuffer(GroupSink& sink) : sink_(&sink) { groups_.reserve(kGroups); }
+  void push(const Group& group) {
+    groups_.push_back(group);
+    if (groups_.size() == kGroups) flush();
+  }
+  void flush() {
+    sink_->accept(std::span<const Group>(groups_));
+    groups_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kGroups = 256;
+  GroupSink* sink_;
+  std::vector<Group> groups_;
+};
+
+}  // namespace atlasgauge

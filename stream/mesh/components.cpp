@@ -1,0 +1,114 @@
+#include "stream/mesh/components.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "stream/engine/keyed_groups.hpp"
+
+namespace atlasgauge {
+namespace {
+
+/// Consecutive faces of one component.
+struct ComponentRun {
+  std::uint32_t component;
+  std::uint32_t faces;
+  std::uint32_t conflict;
+  std::uint32_t key() const { return component; }
+};
+
+Spill<Link> copy_of(const Engine& engine, Spill<Link>& links) {
+  SpillWriter<Link> copy(engine.scratch);
+  SpillReader<Link> reader(links);
+  for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
+    copy.append(block);
+  }
+  return copy.finish();
+}
+
+/// Reads labels and facts of the faces side by side, and writes the runs of each component.
+std::vector<Spill<ComponentRun>> distribute_runs(const Engine& engine, FaceLabels& labels,
+                                                 Spill<FaceFacts>& facts, KeyRanges& ranges) {
+  const std::uint64_t free_bytes = engine.budget.free_bytes();
+  ranges = KeyedGroups<ComponentRun>::plan(engine, facts.size(), 0,
+                                           static_cast<std::uint32_t>(facts.size()),
+                                           free_bytes / 8 * 7, free_bytes / 2);
+  const Reservation memory = engine.budget.reserve(
+      Partition<ComponentRun>::memory_bytes(ranges.bucket_count(), 1, engine.block_bytes()) +
+          3 * engine.block_bytes(),
+      "distributing components");
+  Partition<ComponentRun> partition(engine.scratch, ranges.bucket_count());
+  Partition<ComponentRun>::Writer writer(partition);
+  SpillReader<Label> components(labels.by_all_edges());
+  SpillReader<Label> classes(labels.by_manifold_edges());
+  SpillReader<FaceFacts> faces(facts);
+  ComponentRun run{0, 0, 0};
+  const auto close_run = [&] {
+    if (run.faces > 0) writer.push(ranges.bucket_of(run.component), run);
+  };
+  FaceFacts face;
+  Label component, orientation;
+  while (faces.read(face)) {
+    components.read(component);
+    classes.read(orientation);
+    if (!face.at_raw_level()) continue;
+    if (run.faces == 0 || run.component != component.first()) {
+      close_run();
+      run = {component.first(), 0, 0};
+    }
+    ++run.faces;
+    run.conflict |= orientation.conflict() ? 1U : 0U;
+  }
+  close_run();
+  writer.flush();
+  return partition.finish();
+}
+
+void add(Component& component, const ComponentRun& run) {
+  component.faces += run.faces;
+  component.orientable = component.orientable && run.conflict == 0;
+}
+
+}  // namespace
+
+FaceLabels::FaceLabels(const Engine& engine, Spill<Link> links, std::uint64_t faces, bool manifold)
+    : manifold_(manifold) {
+  if (!manifold) {
+    by_all_edges_ = label_nodes(engine, copy_of(engine, links), faces, LinkRule::kAll);
+  }
+  by_manifold_edges_ = label_nodes(engine, std::move(links), faces, LinkRule::kManifoldOnly);
+}
+
+void group_components(const Engine& engine, FaceLabels& labels, Spill<FaceFacts>& facts,
+                      GroupSinks& sinks) {
+  KeyRanges ranges;
+  std::vector<Spill<ComponentRun>> buckets = distribute_runs(engine, labels, facts, ranges);
+  std::vector<GroupBuffer<Component>> outputs;
+  for (std::size_t i = 0; i < engine.workers.count(); ++i) {
+    outputs.emplace_back(sinks.of_worker(i));
+  }
+  KeyedGroups<ComponentRun> groups(
+      engine,
+      [&](std::size_t worker, std::span<ComponentRun> runs) {
+        Component component{0, true};
+        for (const ComponentRun& run : runs) add(component, run);
+        outputs[worker].push(component);
+      },
+      [&](std::uint32_t, Spill<ComponentRun> runs) {
+        Component component{0, true};
+        SpillReader<ComponentRun> reader(runs);
+        ComponentRun run{};
+        while (reader.read(run)) add(component, run);
+        outputs[0].push(component);
+      });
+  groups.process(std::move(buckets), ranges);
+  for (auto& output : outputs) output.flush();
+}
+
+std::uint64_t count_boundary_components(const Engine& engine, Spill<Link> boundary_links,
+                                        std::uint64_t vertices, std::uint64_t boundary_vertices) {
+  if (boundary_links.empty()) return 0;
+  Spill<Label> labels = label_nodes(engine, std::move(boundary_links), vertices, LinkRule::kAll);
+  return count_components(labels) - (vertices - boundary_vertices);
+}
+
+}  // namespace atlasgauge

@@ -1,0 +1,369 @@
+#include "stream/mesh/edges.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "stream/engine/keyed_groups.hpp"
+#include "stream/engine/sort_spill.hpp"
+
+namespace atlasgauge {
+namespace {
+
+/// An edge with more faces than this is streamed through sorts of its own.
+constexpr std::size_t kLargeEdgeFaces = 4096;
+
+template <class Record>
+constexpr bool kWelded = std::is_same_v<Record, WeldedHalfEdge>;
+
+const auto by_hi = [](const HalfEdge& a, const HalfEdge& b) { return a.hi < b.hi; };
+
+const auto by_raw = [](const auto& a, const auto& b) {
+  return std::pair(a.raw_at_lo(), a.raw_at_hi()) < std::pair(b.raw_at_lo(), b.raw_at_hi());
+};
+
+bool same_raw_edge(const auto& a, const auto& b) {
+  return a.raw_at_lo() == b.raw_at_lo() && a.raw_at_hi() == b.raw_at_hi();
+}
+
+const auto by_uv = [](const HalfEdge& a, const HalfEdge& b) {
+  return std::tuple(a.slot_bits(), bits_of(a.uv_lo), bits_of(a.uv_hi)) <
+         std::tuple(b.slot_bits(), bits_of(b.uv_lo), bits_of(b.uv_hi));
+};
+
+bool same_uv_edge(const HalfEdge& a, const HalfEdge& b) {
+  return a.slot_bits() == b.slot_bits() && bits_of(a.uv_lo) == bits_of(b.uv_lo) &&
+         bits_of(a.uv_hi) == bits_of(b.uv_hi);
+}
+
+/// Where one worker puts what its edges say.
+struct Output {
+  Output(GroupSink& sink, SharedSpill<Link>& raw, SharedSpill<Link>& uv,
+         SharedSpill<Link>& boundary, SharedSpill<SeamCandidate>& seam)
+      : raw_edges(sink),
+        uv_edges(sink),
+        raw_links(raw),
+        uv_links(uv),
+        boundary_links(boundary),
+        seams(seam) {}
+
+  void flush() {
+    raw_edges.flush();
+    uv_edges.flush();
+    raw_links.flush();
+    uv_links.flush();
+    boundary_links.flush();
+    seams.flush();
+  }
+
+  GroupBuffer<RawEdge> raw_edges;
+  GroupBuffer<UvEdge> uv_edges;
+  SharedSpill<Link>::Writer raw_links, uv_links, boundary_links;
+  SharedSpill<SeamCandidate>::Writer seams;
+  bool raw_manifold = true;
+  bool uv_manifold = true;
+};
+
+/// The faces on one edge, as they come: links each with the one before. Whether the first link is
+/// manifold shows only when a third face does not follow.
+template <class Record>
+class FaceChain {
+ public:
+  void add(const Record& half_edge, SharedSpill<Link>::Writer& links) {
+    if (++faces_ == 1) {
+      first_ = half_edge;
+    } else if (faces_ == 2) {
+      second_ = half_edge;
+    } else {
+      if (faces_ == 3) links.push({raw(first_.face), raw(second_.face), false, false});
+      links.push({raw(last_), raw(half_edge.face), false, false});
+    }
+    last_ = half_edge.face;
+  }
+
+  /// Ends the edge.
+  void close(SharedSpill<Link>::Writer& links) {
+    if (faces_ == 2) links.push({raw(first_.face), raw(second_.face), true, !coherent()});
+  }
+
+  void clear() { faces_ = 0; }
+  std::uint64_t faces() const { return faces_; }
+  const Record& first() const { return first_; }
+  bool coherent() const { return faces_ == 2 && first_.forward() != second_.forward(); }
+
+ private:
+  std::uint64_t faces_ = 0;
+  Record first_{}, second_{};
+  FaceId last_{};
+};
+
+/// Takes the half-edges of one welded edge in raw order and makes its raw edges.
+template <class Record>
+class RawEdges {
+ public:
+  explicit RawEdges(Output& output) : output_(output) {}
+
+  void add(const Record& half_edge) {
+    if (chain_.faces() > 0 && !same_raw_edge(chain_.first(), half_edge)) close();
+    chain_.add(half_edge, output_.raw_links);
+  }
+
+  void close() {
+    if (chain_.faces() == 0) return;
+    chain_.close(output_.raw_links);
+    const Record& first = chain_.first();
+    output_.raw_edges.push({chain_.faces(), first.length_3d, chain_.coherent()});
+    if (chain_.faces() == 1) output_.boundary_links.push({first.raw_at_lo(), first.raw_at_hi()});
+    if (chain_.faces() > 2) output_.raw_manifold = false;
+    chain_.clear();
+  }
+
+ private:
+  Output& output_;
+  FaceChain<Record> chain_;
+};
+
+/// Takes the half-edges of one welded edge in uv order and makes its uv edges.
+template <class Record>
+class UvEdges {
+ public:
+  UvEdges(Output& output, const SlotFrames& frames) : output_(output), frames_(frames) {}
+
+  void add(const Record& half_edge) {
+    if (chain_.faces() > 0 && !same_uv_edge(chain_.first(), half_edge)) close();
+    chain_.add(half_edge, output_.uv_links);
+  }
+
+  void close() {
+    if (chain_.faces() == 0) return;
+    chain_.close(output_.uv_links);
+    output_.uv_edges.push({chain_.faces(), length(chain_.first())});
+    if (chain_.faces() > 2) output_.uv_manifold = false;
+    chain_.clear();
+  }
+
+ private:
+  double length(const Record& half_edge) const {
+    if (!half_edge.has_uv_triangle()) return 0;
+    const SlotFrame& frame = frames_.of(half_edge.slot());
+    return distance(frame.texel(half_edge.uv_lo), frame.texel(half_edge.uv_hi));
+  }
+
+  Output& output_;
+  const SlotFrames& frames_;
+  FaceChain<Record> chain_;
+};
+
+SeamCandidate seam_between(const HalfEdge& a, const HalfEdge& b) {
+  const bool sampled =
+      a.has_uv_triangle() && b.has_uv_triangle() && a.sampled() && b.sampled();
+  return {a.face, b.face, a.length_3d, sampled ? 1U : 0U, 0};
+}
+
+template <class Record>
+class EdgeTableOf : public EdgeTable {
+ public:
+  EdgeTableOf(const Engine& engine, std::uint64_t faces, std::uint64_t vertices,
+              std::uint64_t memory_bytes)
+      : engine_(engine),
+        ranges_(KeyedGroups<Record>::plan(engine, 3 * faces, 0,
+                                          static_cast<std::uint32_t>(vertices),
+                                          engine.budget.free_bytes() / 8 * 7, memory_bytes)),
+        memory_(engine.budget.reserve(
+            Partition<Record>::memory_bytes(ranges_.bucket_count(), engine.workers.count(),
+                                            engine.block_bytes()),
+            "distributing half-edges")),
+        partition_(std::in_place, engine.scratch, ranges_.bucket_count()) {
+    for (std::size_t i = 0; i < engine.workers.count(); ++i) writers_.emplace_back(*partition_);
+  }
+
+  void add(std::size_t worker, std::span<const Triangle> triangles,
+           const SlotFrames& frames) override {
+    for (const Triangle& triangle : triangles) {
+      if (!triangle.at_raw_level()) continue;
+      const std::uint32_t bits = bits_of_face(triangle, frames);
+      for (int k = 0; k < 3; ++k) {
+        const Record record = half_edge(triangle, k, (k + 1) % 3, bits);
+        writers_[worker].push(ranges_.bucket_of(record.lo), record);
+      }
+    }
+  }
+
+  EdgeResults group(const SlotFrames& frames, GroupSinks& sinks) override {
+    std::vector<Spill<Record>> buckets = end_distribution();
+    StageLog::Stage stage(engine_.log, "edges", buckets.size());
+    const Reservation outputs_memory = engine_.budget.reserve(
+        4 * engine_.block_bytes() + engine_.workers.count() * kOutputBytes, "links of edges");
+    SharedSpill<Link> raw(engine_.scratch), uv(engine_.scratch), boundary(engine_.scratch);
+    SharedSpill<SeamCandidate> seams(engine_.scratch);
+    std::vector<Output> outputs;
+    for (std::size_t i = 0; i < engine_.workers.count(); ++i) {
+      outputs.emplace_back(sinks.of_worker(i), raw, uv, boundary, seams);
+    }
+    KeyedGroups<Record> groups(
+        engine_,
+        [&](std::size_t worker, std::span<Record> star) { split_star(star, frames, outputs[worker]); },
+        [&](std::uint32_t, Spill<Record> star) {
+          split_hot_star(std::move(star), frames, outputs[0]);
+        });
+    groups.process(std::move(buckets), ranges_, &stage);
+
+    EdgeResults results;
+    for (Output& output : outputs) {
+      output.flush();
+      results.raw_manifold = results.raw_manifold && output.raw_manifold;
+      results.uv_manifold = results.uv_manifold && output.uv_manifold;
+    }
+    results.raw_links = raw.finish();
+    results.uv_links = uv.finish();
+    results.boundary_links = boundary.finish();
+    results.seams = seams.finish();
+    return results;
+  }
+
+ private:
+  /// Staging of one worker's four writers and two group buffers.
+  static constexpr std::uint64_t kOutputBytes = 32 << 10;
+
+  static std::uint32_t bits_of_face(const Triangle& triangle, const SlotFrames& frames) {
+    const std::uint32_t slot =
+        triangle.slot == kNone<SlotId> ? HalfEdge::kSlotMask : raw(triangle.slot);
+    const bool sampled = triangle.has_uv_triangle && !triangle.uv_far &&
+                         frames.of(triangle.slot).readable;
+    return slot | (triangle.at_welded_level() ? 0 : HalfEdge::kRawOnly) |
+           (triangle.has_uv_triangle ? HalfEdge::kUvTriangle : 0) |
+           (sampled ? 0 : HalfEdge::kUnsampled);
+  }
+
+  /// The half-edge from corner i to corner j.
+  static Record half_edge(const Triangle& triangle, int i, int j, std::uint32_t bits) {
+    const auto ends = [&](int k) { return std::pair(triangle.w[k], triangle.v[k]); };
+    const bool forward = ends(i) < ends(j);
+    const int lo = forward ? i : j;
+    const int hi = forward ? j : i;
+    Record record{};
+    record.lo = raw(triangle.w[lo]);
+    record.hi = raw(triangle.w[hi]);
+    record.face = triangle.face;
+    record.bits = bits | (forward ? HalfEdge::kForward : 0);
+    record.uv_lo = triangle.t[lo];
+    record.uv_hi = triangle.t[hi];
+    record.length_3d = distance(triangle.p[lo], triangle.p[hi]);
+    if constexpr (kWelded<Record>) {
+      record.raw_lo = raw(triangle.v[lo]);
+      record.raw_hi = raw(triangle.v[hi]);
+    }
+    return record;
+  }
+
+  std::vector<Spill<Record>> end_distribution() {
+    for (auto& writer : writers_) writer.flush();
+    writers_.clear();
+    std::vector<Spill<Record>> buckets = partition_->finish();
+    partition_.reset();
+    memory_.release();
+    return buckets;
+  }
+
+  /// The half-edges with one lower vertex.
+  static void split_star(std::span<Record> star, const SlotFrames& frames, Output& output) {
+    std::sort(star.begin(), star.end(), by_hi);
+    for (std::size_t begin = 0, end = 0; begin < star.size(); begin = end) {
+      while (end < star.size() && star[end].hi == star[begin].hi) ++end;
+      welded_edge(star.subspan(begin, end - begin), frames, output);
+    }
+  }
+
+  static void welded_edge(std::span<Record> edge, const SlotFrames& frames, Output& output) {
+    if (kWelded<Record>) std::sort(edge.begin(), edge.end(), by_raw);
+    RawEdges<Record> raw_edges(output);
+    for (const Record& half_edge : edge) raw_edges.add(half_edge);
+    raw_edges.close();
+
+    if (kWelded<Record>) {
+      const auto whole = std::partition(edge.begin(), edge.end(),
+                                        [](const Record& h) { return !h.raw_only(); });
+      edge = edge.first(static_cast<std::size_t>(whole - edge.begin()));
+    }
+    if (edge.size() == 2 && !same_uv_edge(edge[0], edge[1])) {
+      output.seams.push(seam_between(edge[0], edge[1]));
+    }
+    if (edge.size() > 2) std::sort(edge.begin(), edge.end(), by_uv);
+    UvEdges<Record> uv_edges(output, frames);
+    for (const Record& half_edge : edge) uv_edges.add(half_edge);
+    uv_edges.close();
+  }
+
+  /// A lower vertex with more half-edges than memory.
+  void split_hot_star(Spill<Record> star, const SlotFrames& frames, Output& output) {
+    Spill<Record> sorted = sort_spill(engine_, std::move(star), by_hi);
+    SpillReader<Record> reader(sorted, SpillReader<Record>::Mode::kConsume);
+    std::vector<Record> edge;
+    Record next{};
+    bool more = reader.read(next);
+    while (more) {
+      edge.clear();
+      while (more && edge.size() < kLargeEdgeFaces && (edge.empty() || next.hi == edge[0].hi)) {
+        edge.push_back(next);
+        more = reader.read(next);
+      }
+      if (!more || next.hi != edge[0].hi) {
+        welded_edge(edge, frames, output);
+        continue;
+      }
+      SpillWriter<Record> rest(engine_.scratch);
+      rest.append(edge);
+      while (more && next.hi == edge[0].hi) {
+        rest.push(next);
+        more = reader.read(next);
+      }
+      large_edge(rest.finish(), frames, output);
+    }
+  }
+
+  /// An edge with more than kLargeEdgeFaces faces: no seam, but raw and uv edges as any other.
+  void large_edge(Spill<Record> edge, const SlotFrames& frames, Output& output) {
+    SpillWriter<Record> whole_faces(engine_.scratch);
+    RawEdges<Record> raw_edges(output);
+    stream_sorted(std::move(edge), by_raw, [&](const Record& half_edge) {
+      raw_edges.add(half_edge);
+      if (!half_edge.raw_only()) whole_faces.push(half_edge);
+    });
+    raw_edges.close();
+    UvEdges<Record> uv_edges(output, frames);
+    stream_sorted(whole_faces.finish(), by_uv,
+                  [&](const Record& half_edge) { uv_edges.add(half_edge); });
+    uv_edges.close();
+  }
+
+  template <class Less, class Use>
+  void stream_sorted(Spill<Record> records, Less less, Use use) {
+    Spill<Record> sorted = sort_spill(engine_, std::move(records), less);
+    SpillReader<Record> reader(sorted, SpillReader<Record>::Mode::kConsume);
+    for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
+      for (const Record& record : block) use(record);
+    }
+  }
+
+  const Engine& engine_;
+  KeyRanges ranges_;
+  Reservation memory_;
+  std::optional<Partition<Record>> partition_;
+  std::vector<typename Partition<Record>::Writer> writers_;
+};
+
+}  // namespace
+
+std::unique_ptr<EdgeTable> EdgeTable::make(const Engine& engine, bool welded, std::uint64_t faces,
+                                           std::uint64_t vertices, std::uint64_t memory_bytes) {
+  if (welded) {
+    return std::make_unique<EdgeTableOf<WeldedHalfEdge>>(engine, faces, vertices, memory_bytes);
+  }
+  return std::make_unique<EdgeTableOf<HalfEdge>>(engine, faces, vertices, memory_bytes);
+}
+
+}  // namespace atlasgauge

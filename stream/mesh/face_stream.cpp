@@ -1,0 +1,278 @@
+#include "stream/mesh/face_stream.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "stream/engine/gather.hpp"
+#include "stream/engine/page_cache.hpp"
+#include "stream/mesh/triangle.hpp"
+
+namespace atlasgauge {
+namespace {
+
+constexpr std::size_t kBatchFaces = 512;
+
+/// Where the corners' data come from while one worker joins a batch.
+class CornerSource {
+ public:
+  virtual ~CornerSource() = default;
+  /// In face order, one worker at a time.
+  virtual void produce(std::size_t worker, std::span<const FaceRecord> faces) = 0;
+  /// Any worker.
+  virtual void join(std::size_t worker, std::span<JoinedFace> faces) = 0;
+};
+
+TexCoord usable(const TexCoord& t) { return is_finite(t) ? t : kNoTexCoord; }
+
+/// Tables in memory, shared by all workers.
+class LoadedTables : public CornerSource {
+ public:
+  static std::uint64_t memory_bytes(const MeshStore& mesh, const Weld& weld) {
+    return mesh.positions.size() * sizeof(Position) + mesh.texcoords.size() * sizeof(TexCoord) +
+           weld.welded.size() * sizeof(VertexId);
+  }
+
+  LoadedTables(MeshStore& mesh, Weld& weld)
+      : positions_(load(mesh.positions)),
+        texcoords_(load(mesh.texcoords)),
+        welded_(load(weld.welded)) {}
+
+  void produce(std::size_t, std::span<const FaceRecord>) override {}
+
+  void join(std::size_t, std::span<JoinedFace> faces) override {
+    for (JoinedFace& face : faces) {
+      for (int k = 0; k < 3; ++k) {
+        const VertexId v = face.record.v[k];
+        const TexCoordId t = face.record.t[k];
+        face.p[k] = positions_[raw(v)];
+        face.welded[k] = welded_.empty() ? v : welded_[raw(v)];
+        face.t[k] = raw(t) < texcoords_.size() ? usable(texcoords_[raw(t)]) : kNoTexCoord;
+      }
+    }
+  }
+
+ private:
+  template <class T>
+  static std::vector<T> load(Spill<T>& table) {
+    std::vector<T> all(table.size());
+    if (!all.empty()) SpillReader<T>(table).read(all);
+    return all;
+  }
+
+  std::vector<Position> positions_;
+  std::vector<TexCoord> texcoords_;
+  std::vector<VertexId> welded_;
+};
+
+/// Page caches, one set a worker.
+class CachedTables : public CornerSource {
+ public:
+  /// Shares of one worker's memory: by record size, since faces use the tables about equally.
+  struct Shares {
+    std::uint64_t positions, texcoords, welded;
+    explicit Shares(std::uint64_t worker_bytes)
+        : positions(worker_bytes / 8 * 5), texcoords(worker_bytes / 4), welded(worker_bytes / 8) {}
+  };
+
+  CachedTables(MeshStore& mesh, Weld& weld, std::size_t workers, std::uint64_t memory_bytes)
+      : texcoords_(mesh.texcoords.size()) {
+    const Shares shares(memory_bytes / workers);
+    for (std::size_t i = 0; i < workers; ++i) {
+      caches_.push_back(std::make_unique<Caches>(mesh, weld, shares));
+    }
+  }
+
+  void produce(std::size_t, std::span<const FaceRecord>) override {}
+
+  void join(std::size_t worker, std::span<JoinedFace> faces) override {
+    Caches& caches = *caches_[worker];
+    for (JoinedFace& face : faces) {
+      for (int k = 0; k < 3; ++k) {
+        const VertexId v = face.record.v[k];
+        const TexCoordId t = face.record.t[k];
+        face.p[k] = caches.positions.at(raw(v));
+        face.welded[k] = caches.welded ? caches.welded->at(raw(v)) : v;
+        face.t[k] = raw(t) < texcoords_ ? usable(caches.texcoords->at(raw(t))) : kNoTexCoord;
+      }
+    }
+  }
+
+ private:
+  struct Caches {
+    Caches(MeshStore& mesh, Weld& weld, const Shares& shares)
+        : positions(mesh.positions, shares.positions) {
+      if (!mesh.texcoords.empty()) texcoords.emplace(mesh.texcoords, shares.texcoords);
+      if (weld.found_any()) welded.emplace(weld.welded, shares.welded);
+    }
+    PageCache<Position> positions;
+    std::optional<PageCache<TexCoord>> texcoords;
+    std::optional<PageCache<VertexId>> welded;
+  };
+
+  std::uint64_t texcoords_;
+  std::vector<std::unique_ptr<Caches>> caches_;
+};
+
+/// Corner data gathered beforehand, in face order.
+class GatheredCorners : public CornerSource {
+ public:
+  GatheredCorners(const Engine& engine, MeshStore& mesh, Weld& weld)
+      : batches_(engine.workers.count()) {
+    const auto vertex = [](const FaceRecord& face, int k) { return raw(face.v[k]); };
+    const auto texcoord = [](const FaceRecord& face, int k) { return raw(face.t[k]); };
+    positions_ = gather(engine, indices(mesh, vertex), mesh.positions, Position{});
+    if (weld.found_any()) {
+      welded_ = gather(engine, indices(mesh, vertex), weld.welded, kNone<VertexId>);
+      welded_reader_.emplace(welded_, kConsume<VertexId>);
+    }
+    if (!mesh.texcoords.empty()) {
+      texcoords_ = gather(engine, indices(mesh, texcoord), mesh.texcoords, kNoTexCoord);
+      texcoord_reader_.emplace(texcoords_, kConsume<TexCoord>);
+    }
+    position_reader_.emplace(positions_, kConsume<Position>);
+  }
+
+  void produce(std::size_t worker, std::span<const FaceRecord> faces) override {
+    Batch& batch = batches_[worker];
+    fill(position_reader_, batch.p, 3 * faces.size());
+    fill(texcoord_reader_, batch.t, 3 * faces.size());
+    fill(welded_reader_, batch.welded, 3 * faces.size());
+  }
+
+  void join(std::size_t worker, std::span<JoinedFace> faces) override {
+    const Batch& batch = batches_[worker];
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t corner = 3 * i + k;
+        faces[i].p[k] = batch.p[corner];
+        faces[i].welded[k] = batch.welded.empty() ? faces[i].record.v[k] : batch.welded[corner];
+        faces[i].t[k] = batch.t.empty() ? kNoTexCoord : usable(batch.t[corner]);
+      }
+    }
+  }
+
+ private:
+  struct Batch {
+    std::vector<Position> p;
+    std::vector<TexCoord> t;
+    std::vector<VertexId> welded;
+  };
+  template <class T>
+  static constexpr auto kConsume = SpillReader<T>::Mode::kConsume;
+
+  template <class IndexOf>
+  static Spill<std::uint32_t> indices(MeshStore& mesh, IndexOf index_of) {
+    SpillWriter<std::uint32_t> indices(*mesh.faces.scratch());
+    SpillReader<FaceRecord> reader(mesh.faces);
+    for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
+      for (const FaceRecord& face : block) {
+        for (int k = 0; k < 3; ++k) indices.push(index_of(face, k));
+      }
+    }
+    return indices.finish();
+  }
+
+  template <class T>
+  static void fill(std::optional<SpillReader<T>>& reader, std::vector<T>& to, std::size_t count) {
+    if (!reader) return;
+    to.resize(count);
+    reader->read(to);
+  }
+
+  Spill<Position> positions_;
+  Spill<TexCoord> texcoords_;
+  Spill<VertexId> welded_;
+  std::optional<SpillReader<Position>> position_reader_;
+  std::optional<SpillReader<TexCoord>> texcoord_reader_;
+  std::optional<SpillReader<VertexId>> welded_reader_;
+  std::vector<Batch> batches_;
+};
+
+/// Bytes that page caches of one worker's share would load for all faces.
+std::uint64_t cache_load_bytes(MeshStore& mesh, std::uint64_t worker_bytes) {
+  const CachedTables::Shares shares(worker_bytes);
+  const PageLayout<Position> position_pages(mesh.positions);
+  const PageLayout<TexCoord> texcoord_pages(mesh.texcoords);
+  PageTags positions(shares.positions / PageLayout<Position>::kBytes);
+  PageTags texcoords(shares.texcoords / PageLayout<TexCoord>::kBytes);
+  std::uint64_t loaded = 0;
+  SpillReader<FaceRecord> reader(mesh.faces);
+  for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
+    for (const FaceRecord& face : block) {
+      for (int k = 0; k < 3; ++k) {
+        if (!positions.access(position_pages.page_of(raw(face.v[k])))) {
+          loaded += PageLayout<Position>::kBytes;
+        }
+        if (raw(face.t[k]) < mesh.texcoords.size() &&
+            !texcoords.access(texcoord_pages.page_of(raw(face.t[k])))) {
+          loaded += PageLayout<TexCoord>::kBytes;
+        }
+      }
+    }
+  }
+  return loaded;
+}
+
+/// Gathering writes and reads about this many bytes a face.
+constexpr std::uint64_t kGatherBytesPerFace = 600;
+
+std::unique_ptr<CornerSource> choose_source(const Engine& engine, MeshStore& mesh, Weld& weld,
+                                            std::uint64_t memory_bytes, Reservation& memory) {
+  const std::uint64_t tables = LoadedTables::memory_bytes(mesh, weld);
+  if (tables <= memory_bytes) {
+    memory = engine.budget.reserve(tables, "vertex tables");
+    return std::make_unique<LoadedTables>(mesh, weld);
+  }
+  const std::size_t workers = engine.workers.count();
+  const std::uint64_t loads = cache_load_bytes(mesh, memory_bytes / workers);
+  if (loads > kGatherBytesPerFace * mesh.faces.size()) {
+    return std::make_unique<GatheredCorners>(engine, mesh, weld);
+  }
+  memory = engine.budget.reserve(memory_bytes, "vertex page caches");
+  return std::make_unique<CachedTables>(mesh, weld, workers, memory_bytes);
+}
+
+}  // namespace
+
+void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld, std::uint64_t memory_bytes,
+                 StageLog::Stage& stage, const FaceVisitor& visitor) {
+  Reservation memory;
+  const std::unique_ptr<CornerSource> corners =
+      choose_source(engine, mesh, weld, memory_bytes, memory);
+  struct Batch {
+    std::uint64_t first_face = 0;
+    std::vector<FaceRecord> records;
+    std::vector<JoinedFace> joined;
+  };
+  std::vector<Batch> batches(engine.workers.count());
+  SpillReader<FaceRecord> faces(mesh.faces);
+  std::uint64_t next_face = 0;
+  Workers::Pipeline pipeline;
+  pipeline.produce = [&](std::size_t worker) {
+    Batch& batch = batches[worker];
+    batch.records.resize(kBatchFaces);
+    batch.records.resize(faces.read(batch.records));
+    batch.first_face = std::exchange(next_face, next_face + batch.records.size());
+    corners->produce(worker, batch.records);
+    return !batch.records.empty();
+  };
+  pipeline.transform = [&](std::size_t worker) {
+    Batch& batch = batches[worker];
+    batch.joined.resize(batch.records.size());
+    for (std::size_t i = 0; i < batch.records.size(); ++i) batch.joined[i].record = batch.records[i];
+    corners->join(worker, batch.joined);
+    visitor.transform(worker, batch.first_face, batch.joined);
+  };
+  if (visitor.commit) {
+    pipeline.commit = [&](std::size_t worker) {
+      visitor.commit(worker);
+      stage.progress(batches[worker].first_face);
+    };
+  }
+  engine.workers.run(pipeline);
+}
+
+}  // namespace atlasgauge

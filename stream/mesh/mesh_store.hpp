@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "io/mesh_batch.hpp"
+#include "io/obj_reader.hpp"
+#include "io/warnings.hpp"
+#include "stream/engine/engine.hpp"
+#include "stream/engine/spill.hpp"
+
+namespace atlasgauge {
+
+/// Axis-aligned box of the finite positions; empty until the first.
+struct BoundingBox {
+  Position low{0, 0, 0};
+  Position high{0, 0, 0};
+  bool empty = true;
+
+  void add(const Position& p);
+  double longest_side() const;
+};
+
+/// A model in scratch, in file order.
+struct MeshStore {
+  Spill<Position> positions;
+  Spill<TexCoord> texcoords;
+  Spill<FaceRecord> faces;
+  BoundingBox box;
+  std::uint64_t nonfinite_positions = 0;
+  std::uint64_t invalid_polygons = 0;
+  bool uvs_in_unit_square = true;  ///< every finite texture coordinate lies in [0,1]
+};
+
+/// Parses an OBJ on all workers into scratch. Polygons that name no vertex of the file are gone from
+/// the faces. `summary` gets what the file says besides geometry.
+MeshStore read_mesh(const Engine& engine, const std::string& path, Warnings& warnings,
+                    ObjSummary& summary);
+
+}  // namespace atlasgauge

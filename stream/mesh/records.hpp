@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "io/ids.hpp"
+#include "io/mesh_batch.hpp"
+#include "stream/mesh/triangle.hpp"
+
+// The records that stages exchange through scratch.
+
+namespace atlasgauge {
+
+/// What later stages ask of a face: the levels it takes part in, and its signed UV area in texels.
+/// Eight bytes: the two kinds without an area are NaNs that differ in sign.
+class FaceFacts {
+ public:
+  FaceFacts() = default;
+  explicit FaceFacts(const Triangle& triangle)
+      : bits_(triangle.at_welded_level() ? triangle.area_uv
+              : triangle.at_raw_level()  ? kRawOnly
+                                         : -kRawOnly) {}
+
+  bool at_raw_level() const { return !std::isnan(bits_) || !std::signbit(bits_); }
+  bool at_welded_level() const { return !std::isnan(bits_); }
+  double area_uv() const { return bits_; }
+
+ private:
+  static constexpr double kRawOnly = std::numeric_limits<double>::quiet_NaN();
+  double bits_ = 0;
+};
+
+/// One face's side of a welded edge (lo, hi), lo <= hi. Its two UVs are those of the corners at lo and
+/// at hi, so equal bits mean the same uv edge.
+struct HalfEdge {
+  std::uint32_t lo, hi;
+  FaceId face;
+  std::uint32_t bits;
+  TexCoord uv_lo, uv_hi;
+  double length_3d;
+
+  static constexpr std::uint32_t kForward = 1U << 31;        ///< the face runs it from lo to hi
+  static constexpr std::uint32_t kRawOnly = 1U << 30;        ///< of a welded-degenerate face
+  static constexpr std::uint32_t kUvTriangle = 1U << 29;     ///< its face has a UV triangle
+  static constexpr std::uint32_t kUnsampled = 1U << 28;      ///< its face's colours cannot be read
+  static constexpr std::uint32_t kSlotMask = kUnsampled - 1; ///< the slot; all ones for none
+
+  std::uint32_t key() const { return lo; }
+  bool forward() const { return (bits & kForward) != 0; }
+  bool raw_only() const { return (bits & kRawOnly) != 0; }
+  bool has_uv_triangle() const { return (bits & kUvTriangle) != 0; }
+  bool sampled() const { return (bits & kUnsampled) == 0; }
+  std::uint32_t slot_bits() const { return bits & kSlotMask; }
+  SlotId slot() const {
+    return slot_bits() == kSlotMask ? kNone<SlotId> : static_cast<SlotId>(slot_bits());
+  }
+  std::uint32_t raw_at_lo() const { return lo; }
+  std::uint32_t raw_at_hi() const { return hi; }
+};
+static_assert(sizeof(HalfEdge) == 40);
+
+/// The same where vertices were welded: the vertices as written ride along. For lo = hi (an edge
+/// between coincident vertices) raw_lo is the smaller of them.
+struct WeldedHalfEdge : HalfEdge {
+  std::uint32_t raw_lo, raw_hi;
+
+  std::uint32_t raw_at_lo() const { return raw_lo; }
+  std::uint32_t raw_at_hi() const { return raw_hi; }
+};
+static_assert(sizeof(WeldedHalfEdge) == 48);
+
+/// A seam edge, unless one of its faces turns out to be in a null chart.
+struct SeamCandidate {
+  FaceId a, b;
+  double length_3d;
+  std::uint32_t sampled;
+  std::uint32_t in_null_chart;
+};
+
+}  // namespace atlasgauge

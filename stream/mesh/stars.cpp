@@ -1,0 +1,257 @@
+#include "stream/mesh/stars.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "stream/engine/keyed_groups.hpp"
+#include "stream/engine/labels.hpp"
+#include "stream/engine/sort_spill.hpp"
+
+namespace atlasgauge {
+namespace {
+
+/// A corner of a face at vertex v, and the two other vertices of the face.
+struct StarCorner {
+  std::uint32_t v, a, b;
+  std::uint32_t key() const { return v; }
+};
+
+/// The two other vertices of a face that has v as its smallest, in order.
+std::pair<std::uint32_t, std::uint32_t> pair_of(const StarCorner& corner) {
+  return std::minmax(corner.a, corner.b);
+}
+bool owns_face(const StarCorner& corner) { return corner.v < corner.a && corner.v < corner.b; }
+
+/// Counts the edges at a vertex from its neighbours, one entry a face and neighbour, in order.
+class NeighbourCount {
+ public:
+  /// Whether the neighbour is the same as the one before.
+  bool add(std::uint32_t neighbour) {
+    const bool same = uses_ > 0 && neighbour == last_;
+    if (!same) close();
+    last_ = neighbour;
+    ++uses_;
+    return same;
+  }
+  void close() {
+    if (uses_ == 0) return;
+    ++edges_;
+    if (uses_ == 1) ++boundary_edges_;
+    if (uses_ > 2) nonmanifold_edge_ = true;
+    uses_ = 0;
+  }
+  std::uint64_t edges() const { return edges_; }
+  std::uint64_t boundary_edges() const { return boundary_edges_; }
+  bool nonmanifold_edge() const { return nonmanifold_edge_; }
+
+ private:
+  std::uint32_t last_ = 0;
+  std::uint64_t uses_ = 0;
+  std::uint64_t edges_ = 0;
+  std::uint64_t boundary_edges_ = 0;
+  bool nonmanifold_edge_ = false;
+};
+
+/// Works on stars that fit in memory; keeps its buffers from one to the next.
+class StarCounter {
+ public:
+  VertexStar count(std::span<const StarCorner> corners) {
+    sort_neighbours(corners);
+    unite_neighbours(corners.size());
+    return {corners.size(), neighbours_.boundary_edges(), neighbours_.nonmanifold_edge(),
+            fans_ == 1, duplicate_faces(corners)};
+  }
+
+ private:
+  void sort_neighbours(std::span<const StarCorner> corners) {
+    uses_.clear();
+    for (std::uint32_t i = 0; i < corners.size(); ++i) {
+      uses_.emplace_back(corners[i].a, i);
+      uses_.emplace_back(corners[i].b, i);
+    }
+    std::sort(uses_.begin(), uses_.end());
+  }
+
+  /// Corners that share a neighbour are in one fan: union-find over the corners.
+  void unite_neighbours(std::size_t corners) {
+    parent_.resize(corners);
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    fans_ = corners;
+    neighbours_ = {};
+    for (std::size_t i = 0; i < uses_.size(); ++i) {
+      if (neighbours_.add(uses_[i].first)) unite(uses_[i - 1].second, uses_[i].second);
+    }
+    neighbours_.close();
+  }
+
+  std::uint32_t find(std::uint32_t corner) {
+    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
+    return corner;
+  }
+
+  void unite(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    if (a == b) return;
+    parent_[std::max(a, b)] = std::min(a, b);
+    --fans_;
+  }
+
+  std::uint64_t duplicate_faces(std::span<const StarCorner> corners) {
+    pairs_.clear();
+    for (const StarCorner& corner : corners) {
+      if (owns_face(corner)) pairs_.push_back(pair_of(corner));
+    }
+    if (pairs_.size() < 2) return 0;
+    std::sort(pairs_.begin(), pairs_.end());
+    const auto distinct = std::unique(pairs_.begin(), pairs_.end());
+    return static_cast<std::uint64_t>(pairs_.end() - distinct);
+  }
+
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> uses_, pairs_;
+  std::vector<std::uint32_t> parent_;
+  std::size_t fans_ = 0;
+  NeighbourCount neighbours_;
+};
+
+/// A star with more corners than memory: its neighbours are the nodes and its corners the links of a
+/// graph whose components are the fans.
+class HotStar {
+ public:
+  HotStar(const Engine& engine, std::uint64_t vertices) : engine_(engine), vertices_(vertices) {}
+
+  VertexStar count(Spill<StarCorner> corners) {
+    const std::uint64_t corner_count = corners.size();
+    SpillWriter<std::uint32_t> neighbours(engine_.scratch);
+    SpillWriter<Pair> pairs(engine_.scratch);
+    SpillWriter<Link> links(engine_.scratch);
+    SpillReader<StarCorner> reader(corners, SpillReader<StarCorner>::Mode::kConsume);
+    for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
+      for (const StarCorner& corner : block) {
+        neighbours.push(corner.a);
+        neighbours.push(corner.b);
+        links.push({corner.a, corner.b});
+        const auto [low, high] = pair_of(corner);
+        if (owns_face(corner)) pairs.push({low, high});
+      }
+    }
+    const NeighbourCount edges = count_neighbours(neighbours.finish());
+    return {corner_count, edges.boundary_edges(), edges.nonmanifold_edge(),
+            count_fans(links.finish(), edges.edges()) == 1, count_duplicates(pairs.finish())};
+  }
+
+ private:
+  struct Pair {
+    std::uint32_t low, high;
+    auto operator<=>(const Pair&) const = default;
+  };
+
+  NeighbourCount count_neighbours(Spill<std::uint32_t> neighbours) {
+    Spill<std::uint32_t> sorted = sort_spill(engine_, std::move(neighbours), std::less<>());
+    NeighbourCount count;
+    SpillReader<std::uint32_t> reader(sorted);
+    std::uint32_t neighbour = 0;
+    while (reader.read(neighbour)) count.add(neighbour);
+    count.close();
+    return count;
+  }
+
+  std::uint64_t count_fans(Spill<Link> links, std::uint64_t neighbours) {
+    Spill<Label> labels = label_nodes(engine_, std::move(links), vertices_, LinkRule::kAll);
+    const std::uint64_t others = vertices_ - neighbours;  // each a component of its own
+    return count_components(labels) - others;
+  }
+
+  std::uint64_t count_duplicates(Spill<Pair> pairs) {
+    Spill<Pair> sorted = sort_spill(engine_, std::move(pairs), std::less<>());
+    SpillReader<Pair> reader(sorted);
+    std::uint64_t duplicates = 0;
+    std::optional<Pair> last;
+    Pair pair{};
+    while (reader.read(pair)) {
+      if (last == pair) ++duplicates;
+      last = pair;
+    }
+    return duplicates;
+  }
+
+  const Engine& engine_;
+  std::uint64_t vertices_;
+};
+
+std::vector<Spill<StarCorner>> distribute_corners(const Engine& engine,
+                                                  Spill<FaceRecord>& faces,
+                                                  Spill<FaceFacts>& facts, std::uint64_t vertices,
+                                                  KeyRanges& ranges) {
+  const std::uint64_t free_bytes = engine.budget.free_bytes();
+  ranges = KeyedGroups<StarCorner>::plan(engine, 3 * faces.size(), 0,
+                                         static_cast<std::uint32_t>(vertices),
+                                         free_bytes / 8 * 7, free_bytes / 2);
+  const Reservation memory = engine.budget.reserve(
+      Partition<StarCorner>::memory_bytes(ranges.bucket_count(), 1, engine.block_bytes()) +
+          2 * engine.block_bytes(),
+      "distributing corners");
+  Partition<StarCorner> partition(engine.scratch, ranges.bucket_count());
+  Partition<StarCorner>::Writer writer(partition);
+  SpillReader<FaceRecord> face_reader(faces);
+  SpillReader<FaceFacts> facts_reader(facts);
+  FaceFacts face_facts;
+  for (auto block = face_reader.next_block(); !block.empty(); block = face_reader.next_block()) {
+    for (const FaceRecord& face : block) {
+      facts_reader.read(face_facts);
+      if (!face_facts.at_raw_level()) continue;
+      const std::uint32_t v[3] = {raw(face.v[0]), raw(face.v[1]), raw(face.v[2])};
+      for (int k = 0; k < 3; ++k) {
+        writer.push(ranges.bucket_of(v[k]), {v[k], v[(k + 1) % 3], v[(k + 2) % 3]});
+      }
+    }
+  }
+  writer.flush();
+  return partition.finish();
+}
+
+/// Hands out the stars of one worker, and counts the vertices on boundary edges as they pass.
+class StarOutput {
+ public:
+  explicit StarOutput(GroupSink& sink) : stars_(sink) {}
+  void push(const VertexStar& star) {
+    if (star.boundary_edges > 0) ++boundary_vertices_;
+    stars_.push(star);
+  }
+  std::uint64_t finish() {
+    stars_.flush();
+    return boundary_vertices_;
+  }
+
+ private:
+  GroupBuffer<VertexStar> stars_;
+  std::uint64_t boundary_vertices_ = 0;
+};
+
+}  // namespace
+
+std::uint64_t group_stars(const Engine& engine, Spill<FaceRecord>& faces, Spill<FaceFacts>& facts,
+                          std::uint64_t vertices, GroupSinks& sinks) {
+  StageLog::Stage stage(engine.log, "vertex stars", faces.size());
+  KeyRanges ranges;
+  std::vector<Spill<StarCorner>> buckets = distribute_corners(engine, faces, facts, vertices, ranges);
+  std::vector<StarOutput> outputs;
+  for (std::size_t i = 0; i < engine.workers.count(); ++i) outputs.emplace_back(sinks.of_worker(i));
+  std::vector<StarCounter> counters(engine.workers.count());
+  HotStar hot(engine, vertices);
+  KeyedGroups<StarCorner> groups(
+      engine,
+      [&](std::size_t worker, std::span<StarCorner> star) {
+        outputs[worker].push(counters[worker].count(star));
+      },
+      [&](std::uint32_t, Spill<StarCorner> star) { outputs[0].push(hot.count(std::move(star))); });
+  groups.process(std::move(buckets), ranges);
+  std::uint64_t boundary_vertices = 0;
+  for (StarOutput& output : outputs) boundary_vertices += output.finish();
+  return boundary_vertices;
+}
+
+}  // namespace atlasgauge
