@@ -66,6 +66,7 @@ struct Triangle {
   FaceId face;
   SlotId slot;
   FaceKind kind;
+  bool slot_has_size;
   bool has_uv_triangle;  ///< three finite UVs, on a slot with a size
   bool uv_far;           ///< reaches beyond 2^30 texels
   VertexId v[3];         ///< as written

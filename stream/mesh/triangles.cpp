@@ -24,6 +24,7 @@ FaceKind kind_of(const JoinedFace& face) {
 }
 
 void map_to_texels(Triangle& triangle, const SlotFrame& frame) {
+  triangle.slot_has_size = frame.has_size;
   triangle.has_uv_triangle = frame.has_size && is_finite(triangle.t[0]) &&
                              is_finite(triangle.t[1]) && is_finite(triangle.t[2]);
   triangle.uv_far = false;
