@@ -40,10 +40,10 @@ struct ForwardPolygon {
 /// Values in file order, as a reader hands them out. The spans live until the sink returns.
 struct MeshBatch {
   std::uint32_t part = 0;  ///< which input part; OBJ has one, tiled inputs have thousands
-  std::span<const Position> positions;
-  std::span<const TexCoord> texcoords;
-  std::span<const FaceRecord> faces;
-  std::span<const ForwardPolygon> forward;
+  std::span<const Position> positions{};
+  std::span<const TexCoord> texcoords{};
+  std::span<const FaceRecord> faces{};
+  std::span<const ForwardPolygon> forward{};
 };
 
 /// Where readers put what they read.

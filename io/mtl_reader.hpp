@@ -15,7 +15,8 @@ struct Material {
   std::optional<std::string> image;
 };
 
-/// All `newmtl` of a file, in order; of two equal names both are listed. Throws Error(kInput).
+/// All `newmtl` of a file, in order; of two equal names both are listed. Throws Error(kInput),
+/// or Error(kResource) where the names exceed NameRoom::kMaxBytes.
 std::vector<Material> read_mtl(const std::string& path, Warnings& warnings);
 
 }  // namespace atlasgauge

@@ -1,28 +1,17 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
-#include <vector>
 
 #include "io/byte_source.hpp"
 #include "io/mesh_batch.hpp"
 #include "io/obj_block.hpp"
+#include "io/obj_block_cutter.hpp"
+#include "io/obj_committer.hpp"
+#include "io/obj_summary.hpp"
 #include "io/warnings.hpp"
 
 namespace atlasgauge {
-
-/// What an OBJ says besides geometry.
-struct ObjSummary {
-  std::vector<std::string> material_names;   ///< by MaterialId, in order of first `usemtl`
-  std::vector<std::string> mtllib_lines;     ///< the rest of every `mtllib` line, trimmed
-  std::uint64_t positions = 0;
-  std::uint64_t texcoords = 0;
-  std::uint64_t faces = 0;                   ///< triangles handed to the sink
-  std::uint64_t invalid_polygons = 0;        ///< dropped already; ForwardPolygons not included
-  std::uint64_t skipped_primitives = 0;      ///< `l`, `p`, curves and surfaces
-  std::uint64_t unknown_statements = 0;
-};
 
 /// Reads Wavefront OBJ in three steps, so that a driver may run the middle one on many threads:
 ///
@@ -31,7 +20,10 @@ struct ObjSummary {
 ///   commit()  serial, in file order: resolves what depends on earlier blocks (negative indices,
 ///             materials), warns, and hands the values to the sink
 ///
-/// A line longer than a block is handled inside next()/commit() word by word, whatever its length.
+/// next() of one block may run beside commit() of another. A line longer than a block is handed out
+/// in pieces and read in commit() word by word, whatever its length. Besides the blocks, the reader
+/// holds block_bytes of text and the names of materials (at most NameRoom::kMaxBytes). All throw in
+/// next() and commit(), parse() never does.
 /// Throws Error(kInput) with file and line for statements whose numbers cannot be read.
 class ObjReader {
  public:
@@ -47,6 +39,10 @@ class ObjReader {
 
   /// After the last commit().
   ObjSummary finish();
+
+ private:
+  ObjBlockCutter cutter_;
+  ObjCommitter committer_;
 };
 
 }  // namespace atlasgauge

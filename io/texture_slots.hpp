@@ -19,8 +19,8 @@ struct ImageSize {
 
 /// One image file that the materials name, used by a face or not.
 struct TextureSlot {
-  std::string name;               ///< as spelled in the MTL, with slashes; "N/A" for the virtual slot
-  std::string path;               ///< resolved; empty for the virtual slot
+  std::string name;  ///< as spelled in the MTL, with slashes; "N/A" for the virtual slot
+  std::string path;  ///< resolved; empty for the virtual slot
   std::optional<ImageSize> size;  ///< from the image's header, else from `-t`, else none
   bool readable = false;          ///< the image's header could be read
 };
@@ -28,7 +28,7 @@ struct TextureSlot {
 /// The slots of a model, and the slot of every material that faces use.
 struct TextureSlots {
   std::vector<TextureSlot> slots;
-  std::vector<SlotId> of_material;  ///< by MaterialId; kNone = names no image
+  std::vector<SlotId> of_material;          ///< by MaterialId; kNone = names no image
   SlotId without_material = kNone<SlotId>;  ///< for faces before any `usemtl`
   bool has_images = false;                  ///< some material names an image, readable or not
   bool unit_slot = false;                   ///< the virtual slot, 1x1 for lack of `-t`
@@ -37,8 +37,8 @@ struct TextureSlots {
 /// Reads the size of an image; throws Error(kInput) if it cannot be read.
 using ImageProbe = std::function<ImageSize(const std::string& path)>;
 
-/// Resolves libraries (relative to the OBJ) and images (to the MTL, then to the OBJ) by SPEC section 1.
-/// Missing libraries and unreadable images are warnings.
+/// Resolves libraries (relative to the OBJ) and images (to the MTL, then to the OBJ) by SPEC
+/// section 1. Missing libraries and unreadable images are warnings.
 TextureSlots resolve_textures(const std::string& obj_path,
                               const std::vector<std::string>& mtllib_lines,
                               const std::vector<std::string>& material_names,

@@ -46,7 +46,7 @@ struct TextureUse {
   void finish(const MeshFacts& facts, Report& report) const {
     Json names = Json::array();
     for (const TextureSlot& slot : facts.textures.slots) {
-      report.set("texture_" + std::to_string(names.size()), Json());
+      report.set("texture_" + std::to_string(names.size()), Json::array());
       names.push_back(slot.name);
     }
     report.set("ntex", std::uint64_t{facts.textures.slots.size()});

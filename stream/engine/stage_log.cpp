@@ -24,13 +24,16 @@ double wall_seconds() {
 
 StageCost reading(std::string name, const Scratch& scratch) {
   return {std::move(name),         wall_seconds(),          cpu_seconds(),
-          scratch.spilled_bytes(), scratch.written_bytes(), scratch.read_bytes()};
+          scratch.spilled_bytes(), scratch.written_bytes(), scratch.read_bytes(), 0};
 }
 
 }  // namespace
 
 StageLog::Stage::Stage(StageLog& log, std::string name, std::uint64_t total_work)
     : log_(log), before_(reading(std::move(name), log.scratch_)), total_work_(total_work) {
+  for (std::size_t i = 0; i < log.workers_.count(); ++i) {
+    items_before_.push_back(log.workers_.items_done(i));
+  }
   progress(0);
 }
 
@@ -42,6 +45,9 @@ StageLog::Stage::~Stage() {
   cost.spilled_bytes -= before_.spilled_bytes;
   cost.written_bytes -= before_.written_bytes;
   cost.read_bytes -= before_.read_bytes;
+  for (std::size_t i = 0; i < items_before_.size(); ++i) {
+    if (log_.workers_.items_done(i) > items_before_[i]) ++cost.workers_busy;
+  }
   log_.stages_.push_back(std::move(cost));
 }
 

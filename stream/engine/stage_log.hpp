@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stream/engine/budget.hpp"
 #include "stream/engine/scratch.hpp"
+#include "stream/engine/workers.hpp"
 
 namespace atlasgauge {
 
@@ -18,6 +20,7 @@ struct StageCost {
   std::uint64_t spilled_bytes = 0;  ///< blocks that did not fit in memory
   std::uint64_t written_bytes = 0;  ///< to the scratch file
   std::uint64_t read_bytes = 0;
+  std::size_t workers_busy = 0;  ///< workers that did any of its parallel work
 };
 
 /// Hears how far a stage is: its name and a fraction in [0, 1].
@@ -26,8 +29,8 @@ using Progress = std::function<void(const std::string& stage, double fraction)>;
 /// Costs of the stages of a run, in order.
 class StageLog {
  public:
-  explicit StageLog(const Scratch& scratch, Progress progress = {})
-      : scratch_(scratch), progress_(std::move(progress)) {}
+  StageLog(const Scratch& scratch, const Workers& workers, Progress progress = {})
+      : scratch_(scratch), workers_(workers), progress_(std::move(progress)) {}
 
   /// Lives as long as the stage runs.
   class Stage {
@@ -42,6 +45,7 @@ class StageLog {
    private:
     StageLog& log_;
     StageCost before_;
+    std::vector<std::uint64_t> items_before_;
     std::uint64_t total_work_;
     int shown_percent_ = -1;
   };
@@ -50,6 +54,7 @@ class StageLog {
 
  private:
   const Scratch& scratch_;
+  const Workers& workers_;
   Progress progress_;
   std::vector<StageCost> stages_;
 };

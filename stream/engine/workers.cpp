@@ -16,10 +16,12 @@ class PipelineRun {
  public:
   explicit PipelineRun(const Workers::Pipeline& pipeline) : pipeline_(pipeline) {}
 
-  void work(std::size_t worker) {
+  /// Counts the items that this worker transforms in `done`.
+  void work(std::size_t worker, std::atomic<std::uint64_t>& done) {
     try {
       for (std::uint64_t item = 0; produce(worker, item);) {
         pipeline_.transform(worker);
+        done.fetch_add(1, std::memory_order_relaxed);
         if (pipeline_.commit && !commit(worker, item)) return;
       }
     } catch (...) {
@@ -82,9 +84,9 @@ void Workers::run(const Pipeline& pipeline) const {
   {
     std::vector<std::jthread> others;
     for (std::size_t worker = 1; worker < count_; ++worker) {
-      others.emplace_back([&run, worker] { run.work(worker); });
+      others.emplace_back([&run, worker, this] { run.work(worker, items_done_[worker]); });
     }
-    run.work(0);
+    run.work(0, items_done_[0]);
   }
   run.rethrow();
 }

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <memory>
 
 namespace atlasgauge {
 
@@ -13,8 +16,11 @@ namespace atlasgauge {
 /// way, so memory is bounded by construction. An exception of any step stops all and is thrown here.
 class Workers {
  public:
-  explicit Workers(std::size_t count) : count_(count == 0 ? 1 : count) {}
+  explicit Workers(std::size_t count)
+      : count_(count == 0 ? 1 : count), items_done_(std::make_unique<Counter[]>(count_)) {}
   std::size_t count() const { return count_; }
+  /// Items that a worker has transformed so far.
+  std::uint64_t items_done(std::size_t worker) const { return items_done_[worker]; }
 
   struct Pipeline {
     std::function<bool(std::size_t worker)> produce;   ///< false: no more items
@@ -28,7 +34,10 @@ class Workers {
                 const std::function<void(std::size_t worker, std::size_t item)>& work) const;
 
  private:
+  using Counter = std::atomic<std::uint64_t>;
+
   std::size_t count_;
+  std::unique_ptr<Counter[]> items_done_;
 };
 
 }  // namespace atlasgauge

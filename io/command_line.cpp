@@ -1,0 +1,111 @@
+#include "io/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+
+#include "io/bytes.hpp"
+#include "io/error.hpp"
+
+namespace atlasgauge {
+namespace {
+
+ImageSize parse_image_size(const std::string& text) {
+  ImageSize size;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  const bool has_x = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+  const auto height = has_x ? std::from_chars(width.ptr + 1, end, size.height) : width;
+  const bool whole = has_x && height.ec == std::errc() && height.ptr == end;
+  if (!whole || size.width == 0 || size.height == 0) {
+    throw Error(ErrorKind::kUsage,
+                "-t '" + text + "' is not a texture size; give WIDTHxHEIGHT, as in 4096x4096");
+  }
+  return size;
+}
+
+std::string default_tmp_dir() {
+  const char* from_environment = std::getenv("TMPDIR");
+  return from_environment != nullptr && *from_environment != 0 ? from_environment : "/var/tmp";
+}
+
+/// Texts of the options as given, until they are checked.
+struct Texts {
+  std::string json, size, memory, engine_memory, block_bytes;
+  std::string progress = "auto";
+};
+
+void describe(CLI::App& app, Options& options, Texts& texts) {
+  app.add_option("MODEL", options.model, "the model: .obj, .obj.gz or .obj.zst")->required();
+  app.add_option("--json", texts.json, "write the report to FILE; - is standard output")
+      ->type_name("FILE");
+  app.add_option("-t,--texture-size", texts.size,
+                 "texture size for models that name no image, and for images that cannot be read")
+      ->type_name("WxH");
+  app.add_option("--memory", texts.memory,
+                 "limit of the process's resident memory, at least 256M (default: 0.8 of what the "
+                 "cgroup, Slurm or the machine allow)")
+      ->type_name("BYTES");
+  app.add_option("--threads", options.threads, "worker threads (default: the CPUs it may use)")
+      ->type_name("N");
+  app.add_option("--tmp-dir", options.tmp_dir, "directory for scratch (default: TMPDIR, /var/tmp)")
+      ->type_name("DIR");
+  app.add_option("--progress", texts.progress, "progress on standard error")
+      ->check(CLI::IsMember({"auto", "always", "never"}))
+      ->type_name("auto|always|never");
+  app.add_flag("--strict", options.strict, "make every warning an error");
+  app.add_flag("-q,--quiet", options.quiet, "print errors only");
+  app.add_flag("-v,--verbose", options.verbose, "print what the run cost, stage by stage");
+  app.add_option("--engine-memory", texts.engine_memory,
+                 "for tests: working memory of the engine alone, however small")
+      ->type_name("BYTES")
+      ->group("Testing");
+  app.add_option("--block-bytes", texts.block_bytes, "for tests: size of a scratch block")
+      ->type_name("BYTES")
+      ->group("Testing");
+  app.set_version_flag("--version", std::string("atlasgauge ") + ATLASGAUGE_VERSION);
+}
+
+std::optional<std::uint64_t> optional_bytes(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(parse_bytes(text));
+}
+
+void check(Options& options, const Texts& texts) {
+  if (!texts.json.empty()) options.json_path = texts.json;
+  if (!texts.size.empty()) options.texture_size = parse_image_size(texts.size);
+  options.memory_bytes = optional_bytes(texts.memory);
+  options.engine_memory_bytes = optional_bytes(texts.engine_memory);
+  options.block_bytes = optional_bytes(texts.block_bytes);
+  options.progress = texts.progress == "always"  ? ProgressMode::kAlways
+                     : texts.progress == "never" ? ProgressMode::kNever
+                                                 : ProgressMode::kAuto;
+  if (options.tmp_dir.empty()) options.tmp_dir = default_tmp_dir();
+}
+
+}  // namespace
+
+CommandLine parse_command_line(std::vector<std::string> arguments) {
+  if (!arguments.empty() && arguments.front() == "measure") arguments.erase(arguments.begin());
+  CommandLine line;
+  Texts texts;
+  CLI::App app("Measures a textured mesh that need not fit in memory.\n"
+               "Usage: atlasgauge [measure] MODEL [OPTIONS]");
+  describe(app, line.options, texts);
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them last first
+  try {
+    app.parse(arguments);
+  } catch (const CLI::CallForHelp&) {
+    line.text = app.help();
+    return line;
+  } catch (const CLI::CallForVersion&) {
+    line.text = app.version() + "\n";
+    return line;
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorKind::kUsage, std::string(error.what()) + "; see atlasgauge --help");
+  }
+  check(line.options, texts);
+  return line;
+}
+
+}  // namespace atlasgauge

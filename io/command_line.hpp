@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/texture_slots.hpp"
+
+namespace atlasgauge {
+
+enum class ProgressMode { kAuto, kAlways, kNever };
+
+/// What the user asked for.
+struct Options {
+  std::string model;
+  std::optional<std::string> json_path;  ///< "-" is stdout
+  std::optional<ImageSize> texture_size;
+  std::optional<std::uint64_t> memory_bytes;
+  std::optional<std::uint64_t> engine_memory_bytes;
+  std::optional<std::uint64_t> block_bytes;
+  std::size_t threads = 0;  ///< 0: as many as the process may use
+  std::string tmp_dir;
+  ProgressMode progress = ProgressMode::kAuto;
+  bool quiet = false;
+  bool verbose = false;
+  bool strict = false;
+};
+
+/// What a command line comes to: options, or a text to print instead of working (help, version).
+struct CommandLine {
+  Options options;
+  std::optional<std::string> text;
+};
+
+/// Arguments without the program's name, in any order; `measure` in front may be left out. Opens no
+/// file. Throws Error(kUsage).
+CommandLine parse_command_line(std::vector<std::string> arguments);
+
+}  // namespace atlasgauge

@@ -1,0 +1,116 @@
+// The program: what the command line asks for, as one flow from a model to a report. With
+// stream/pipeline.cpp this is where the folders are put together; nothing else prints or exits.
+
+#include <fmt/format.h>
+#include <malloc.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "io/command_line.hpp"
+#include "io/error.hpp"
+#include "io/image_info.hpp"
+#include "io/output_file.hpp"
+#include "io/progress_bar.hpp"
+#include "io/texture_slots.hpp"
+#include "io/warnings.hpp"
+#include "measures/measure_set.hpp"
+#include "measures/summary.hpp"
+#include "stream/engine/engine.hpp"
+#include "stream/memory_plan.hpp"
+#include "stream/pipeline.hpp"
+
+namespace atlasgauge {
+namespace {
+
+std::size_t usable_cpus() {
+  cpu_set_t cpus;
+  CPU_ZERO(&cpus);
+  if (::sched_getaffinity(0, sizeof(cpus), &cpus) != 0) return 1;
+  return static_cast<std::size_t>(CPU_COUNT(&cpus));
+}
+
+/// Large buffers go back to the system when they are freed: resident memory is what the limit is
+/// about, and the allocator's habit of keeping them would break it.
+void return_freed_memory() {
+  ::mallopt(M_MMAP_THRESHOLD, 256 << 10);
+  ::mallopt(M_ARENA_MAX, 2);
+}
+
+bool shows_progress(const Options& options) {
+  if (options.quiet || options.progress == ProgressMode::kNever) return false;
+  return options.progress == ProgressMode::kAlways || ::isatty(STDERR_FILENO) == 1;
+}
+
+void measure(const Options& options) {
+  if (options.json_path) check_writable(*options.json_path);
+  const Workers workers(options.threads > 0 ? options.threads : usable_cpus());
+  const MemoryPlan plan = plan_memory(
+      {options.memory_bytes, options.engine_memory_bytes, options.block_bytes}, workers.count());
+  MemoryBudget budget(plan.engine_bytes);
+  Scratch scratch({options.tmp_dir, plan.block_bytes, plan.resident_bytes}, budget);
+  ProgressBar bar(shows_progress(options));
+  StageLog log(scratch, workers, [&](const std::string& stage, double done) {
+    bar.update(stage, done);
+  });
+  const Engine engine{budget, scratch, workers, log};
+  Warnings warnings(
+      [&](const std::string& text) {
+        if (!options.quiet) bar.message("warning: " + text);
+      },
+      options.strict);
+
+  MeasureSet measures(workers.count());
+  const auto resolve = [&](const ObjSummary& obj) {
+    return resolve_textures(options.model, obj.mtllib_lines, obj.material_names,
+                            options.texture_size, read_image_size, warnings);
+  };
+  const MeshFacts facts = stream_model(engine, options.model, warnings, resolve, measures);
+  const Report report = measures.finish(facts);
+
+  bar.clear();
+  if (options.json_path) write_file(*options.json_path, report.to_json().dump(1) + "\n");
+  const bool json_on_stdout = options.json_path == "-";
+  std::FILE* const summary_to = json_on_stdout ? stderr : stdout;
+  if (!options.quiet) fmt::print(summary_to, "{}", summary_of(facts, report));
+  if (options.verbose) fmt::print(stderr, "{}", cost_of(engine, plan));
+}
+
+int run(const std::vector<std::string>& arguments) {
+  const CommandLine line = parse_command_line(arguments);
+  if (line.text) {
+    fmt::print("{}", *line.text);
+    return 0;
+  }
+  measure(line.options);
+  return 0;
+}
+
+int fail(ErrorKind kind, const std::string& text) {
+  fmt::print(stderr, "atlasgauge: {}\n", text);
+  return static_cast<int>(kind);
+}
+
+}  // namespace
+}  // namespace atlasgauge
+
+int main(int argc, char** argv) {
+  using atlasgauge::ErrorKind;
+  try {
+    atlasgauge::return_freed_memory();
+    return atlasgauge::run(std::vector<std::string>(argv + 1, argv + argc));
+  } catch (const atlasgauge::Error& error) {
+    return atlasgauge::fail(error.kind(), error.what());
+  } catch (const std::bad_alloc&) {
+    return atlasgauge::fail(ErrorKind::kResource,
+                            "the system gives no more memory; lower --memory or free some");
+  } catch (const std::exception& error) {
+    return atlasgauge::fail(ErrorKind::kInternal,
+                            std::string("internal error, please report it: ") + error.what());
+  }
+}

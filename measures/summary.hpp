@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "measures/report.hpp"
+#include "stream/engine/engine.hpp"
+#include "stream/memory_plan.hpp"
+#include "stream/pipeline.hpp"
+
+namespace atlasgauge {
+
+/// The report for a person, in aligned columns.
+std::string summary_of(const MeshFacts& facts, const Report& report);
+
+/// What the run cost: stage by stage, and memory.
+std::string cost_of(const Engine& engine, const MemoryPlan& plan);
+
+}  // namespace atlasgauge

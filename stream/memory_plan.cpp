@@ -1,0 +1,72 @@
+#include "stream/memory_plan.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "io/bytes.hpp"
+#include "io/error.hpp"
+#include "io/memory_limit.hpp"
+#include "stream/engine/scratch.hpp"
+
+namespace atlasgauge {
+namespace {
+
+constexpr std::uint64_t kMiB = 1 << 20;
+constexpr std::uint64_t kFloorBytes = 256 * kMiB;
+/// Resident once the image library is loaded, as measured, and the program itself.
+constexpr std::uint64_t kProcessBytes = 152 * kMiB;
+/// Stacks, allocator slack and small objects of a worker.
+constexpr std::uint64_t kWorkerBytes = 2 * kMiB;
+/// Buckets beyond the caches make sorting slower, so a larger engine would not be faster.
+constexpr std::uint64_t kLargestEngineBytes = 1024 * kMiB;
+constexpr std::uint64_t kSmallestEngineBytes = 2 * kMiB;
+constexpr std::uint64_t kSmallestBlockBytes = 4096;
+constexpr std::uint64_t kLargestBlockBytes = 1 * kMiB;
+/// Blocks that the engine's memory holds: enough for the buckets of one distribution.
+constexpr std::uint64_t kBlocksPerEngine = 256;
+
+std::uint64_t engine_share(std::uint64_t limit_bytes, std::size_t workers) {
+  if (limit_bytes < kFloorBytes) {
+    throw Error(ErrorKind::kResource,
+                "--memory " + format_bytes(limit_bytes) + " is too little; give at least " +
+                    format_bytes(kFloorBytes));
+  }
+  const std::uint64_t process_bytes = kProcessBytes + workers * kWorkerBytes;
+  if (process_bytes + kSmallestEngineBytes > limit_bytes) {
+    throw Error(ErrorKind::kResource,
+                "--memory " + format_bytes(limit_bytes) + " is too little for " +
+                    std::to_string(workers) + " threads; give fewer threads or at least " +
+                    format_bytes(process_bytes + 64 * kMiB));
+  }
+  return std::min(kLargestEngineBytes, limit_bytes - process_bytes);
+}
+
+}  // namespace
+
+MemoryPlan plan_memory(const MemoryWishes& wishes, std::size_t workers) {
+  MemoryPlan plan;
+  if (wishes.limit_bytes) {
+    plan.limit_bytes = *wishes.limit_bytes;
+    plan.origin = "--memory";
+  } else {
+    const MemoryLimit limit = detect_memory_limit();
+    plan.limit_bytes = limit.bytes / 10 * 8;
+    plan.origin = "0.8 of " + limit.origin;
+  }
+  plan.engine_bytes =
+      wishes.engine_bytes ? *wishes.engine_bytes : engine_share(plan.limit_bytes, workers);
+  if (plan.engine_bytes < kSmallestEngineBytes) {
+    throw Error(ErrorKind::kResource, "--engine-memory is too little; give at least " +
+                                          format_bytes(kSmallestEngineBytes));
+  }
+  plan.resident_bytes = plan.engine_bytes / 4;
+  plan.block_bytes = std::clamp(std::bit_floor(plan.engine_bytes / kBlocksPerEngine),
+                                kSmallestBlockBytes, kLargestBlockBytes);
+  if (wishes.block_bytes) plan.block_bytes = *wishes.block_bytes;
+  if (plan.block_bytes < kSmallestBlockBytes || plan.block_bytes % Scratch::kAlignment != 0) {
+    throw Error(ErrorKind::kUsage, "--block-bytes must be a multiple of 4096");
+  }
+  return plan;
+}
+
+}  // namespace atlasgauge

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+
+// Small random models with every defect that the specification speaks of, mixed by the seed. Most
+// have coordinates on a coarse dyadic lattice, where coincidences and exact equalities abound.
+namespace atlasgauge::oracle {
+
+struct RandomMeshOptions {
+  int min_faces = 10;
+  int max_faces = 200;         // defects may add a few
+  double defect_chance = 0.3;  // that a kind of defect occurs in a model; calm ones have none
+  // An OBJ without an mtllib line finds the MTL only when both files have the same stem.
+  std::string mtl_name = "random.mtl";
+};
+
+struct RandomModel {
+  std::string obj;
+  std::string mtl;
+  // The images beside the MTL and their sizes. One that the MTL names but that is absent here is
+  // missing.
+  std::map<std::string, std::pair<uint32_t, uint32_t>> images;
+};
+
+// The same seed gives the same model everywhere.
+RandomModel random_model(uint64_t seed, const RandomMeshOptions& options = {});
+
+std::string random_obj(uint64_t seed, const RandomMeshOptions& options = {});
+
+}  // namespace atlasgauge::oracle
