@@ -46,7 +46,7 @@ std::string_view after_first_word(std::string_view text) {
 }
 
 bool is_number(std::string_view word) {
-  const std::string terminated = std::string(word) + '\n';
+  const std::string terminated = std::string(word).append(1 + kReadAheadBytes, '\n');
   double value = 0;
   return read_double(terminated.data(), value) != nullptr;
 }

@@ -8,6 +8,10 @@ namespace {
 /// A final line end, and one more if a backslash escapes it.
 constexpr std::size_t kAddedLineEnds = 2;
 
+constexpr std::size_t text_room(std::size_t block_bytes) {
+  return block_bytes + kAddedLineEnds + kReadAheadBytes;
+}
+
 /// Elements for which a block has room: one for so many bytes of text. Few lines of scans are
 /// shorter: "v 1.23 4.56 7.89", "vt 0.12 0.34", "f 123 124 125".
 constexpr std::size_t position_room(std::size_t block_bytes) {
@@ -29,7 +33,7 @@ constexpr std::size_t kSmallThings = std::size_t{16} << 10;
 }  // namespace
 
 void ObjBlock::allocate(std::size_t block_bytes) {
-  text.allocate(block_bytes + kAddedLineEnds);
+  text.allocate(text_room(block_bytes));
   positions.allocate(position_room(block_bytes));
   texcoords.allocate(texcoord_room(block_bytes));
   faces.allocate(face_room(block_bytes));
@@ -44,7 +48,7 @@ void ObjBlock::allocate(std::size_t block_bytes) {
 }
 
 std::size_t ObjBlock::memory_bytes(std::size_t block_bytes) {
-  return block_bytes + kAddedLineEnds + position_room(block_bytes) * sizeof(Position) +
+  return text_room(block_bytes) + position_room(block_bytes) * sizeof(Position) +
          texcoord_room(block_bytes) * sizeof(TexCoord) +
          face_room(block_bytes) * (sizeof(FaceRecord) + sizeof(Polygon)) +
          name_room(block_bytes) * (sizeof(MaterialSwitch) + sizeof(Name)) + sizeof(ObjBlock) +

@@ -118,7 +118,7 @@ const char* ObjLongLine::feed_words(const char* text, const char* end,
 
 void ObjLongLine::end_word(FixedArray<FaceRecord>& faces) {
   const std::size_t word_bytes = word_.size();
-  word_.push_back('\n');  // number readers need an end
+  word_.append(1 + kReadAheadBytes, '\n');
   const std::string_view word(word_.data(), word_bytes);
   if (statement_ == ObjStatement::kPosition) read_position_word(word);
   if (statement_ == ObjStatement::kTexCoord) read_texcoord_word(word);

@@ -77,8 +77,8 @@ const char* read_index_slowly(const char* text, std::int64_t& value) {
   const char* const begin = text + (negative || *text == '+' ? 1 : 0);
   const char* p = begin;
   std::int64_t digits = 0;
-  for (; is_digit(*p); ++p) {
-    const std::int64_t digit = *p - '0';
+  for (; digit_of(*p) <= 9; ++p) {
+    const std::int64_t digit = digit_of(*p);
     digits = digits > (kMax - digit) / 10 ? kMax : digits * 10 + digit;
   }
   if (p == begin || (*p != '/' && !is_word_end(*p))) return nullptr;

@@ -50,18 +50,16 @@ inline const char* read_corner(const char* text, ObjCorner& corner) {
 [[gnu::always_inline]] inline const char* read_plain_corner(const char* text, std::uint32_t& vertex,
                                                             std::uint32_t& texcoord) {
   constexpr std::ptrdiff_t kMostDigits = 9;
-  const auto read = [](const char*& p, std::uint32_t& index) {
-    const char* const begin = p;
-    std::uint32_t digits = 0;
-    for (; numbers::is_digit(*p); ++p) digits = digits * 10 + numbers::digit_of(*p);
-    index = digits;
-    return digits != 0 && p - begin <= kMostDigits;
-  };
-  const char* p = text;
+  vertex = 0;
   texcoord = 0;
-  if (!read(p, vertex)) return nullptr;
-  if (*p == '/' && !read(++p, texcoord)) return nullptr;
-  if (*p == '/') p = skip_word(p);
+  const char* p = numbers::append_many_digits(text, vertex);
+  if (vertex == 0 || p - text > kMostDigits) return nullptr;
+  if (*p == '/') {
+    const char* const begin = p + 1;
+    p = numbers::append_many_digits(begin, texcoord);
+    if (texcoord == 0 || p - begin > kMostDigits) return nullptr;
+    if (*p == '/') p = skip_word(p);
+  }
   return is_word_end(*p) ? p : nullptr;
 }
 

@@ -16,11 +16,7 @@ struct Conformality {
     return Sample{1 / quasi_conformal_distortion(triangle), triangle.area_3d};
   }
 
-  void accumulate(const Triangle& triangle) {
-    if (const std::optional<Sample> taken = sample(triangle)) {
-      moments.add(taken->value, taken->weight);
-    }
-  }
+  void accumulate(const Sample& taken) { moments.add(taken.value, taken.weight); }
 
   void merge(const Conformality& other) { moments.merge(other.moments); }
 

@@ -41,12 +41,13 @@ struct Crumbliness {
 
   void finish(const MeshFacts&, Report& report) const {
     const double disk = std::sqrt(4 * std::numbers::pi * area.value());
+    const double crumbliness = boundary_length.value() / disk;
     report.set("en_uv", edges);
     report.set("en_uv_b", boundary);
     report.set("area_uv", area.value());
     report.set("boundary_len_uv", boundary_length.value());
-    report.set("crumbliness", boundary_length.value() / disk);
-    report.set("solidity", disk / boundary_length.value());
+    report.set("crumbliness", crumbliness);
+    report.set("solidity", disk > 0 ? 1 / crumbliness : crumbliness);  // neither exists over no area
   }
 };
 

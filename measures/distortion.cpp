@@ -15,20 +15,15 @@ struct Distortion {
   WeightedMoments moments;
   ExactSum discarded_area;  // model units squared
 
-  std::optional<Sample> sample(const Triangle& triangle) const {
+  std::optional<Sample> sample(const Triangle& triangle) {
     if (!is_mapped(triangle)) return std::nullopt;
     const double distortion = quasi_conformal_distortion(triangle);
-    if (!(distortion < kLargest)) return std::nullopt;
-    return Sample{distortion, triangle.area_3d};
+    if (distortion < kLargest) return Sample{distortion, triangle.area_3d};
+    discarded_area.add(triangle.area_3d);
+    return std::nullopt;
   }
 
-  void accumulate(const Triangle& triangle) {
-    if (const std::optional<Sample> kept = sample(triangle)) {
-      moments.add(kept->value, kept->weight);
-    } else if (is_mapped(triangle)) {
-      discarded_area.add(triangle.area_3d);
-    }
-  }
+  void accumulate(const Sample& taken) { moments.add(taken.value, taken.weight); }
 
   void merge(const Distortion& other) {
     moments.merge(other.moments);

@@ -31,15 +31,17 @@ namespace atlasgauge {
 // changes nothing, any cut into partials merged in any order gives the same report, and a partial
 // saved and loaded is the same.
 //
-// A measure with `std::optional<Sample> sample(const Triangle&) const` is a distribution: finish()
-// finds the exact percentiles of its samples in facts.quantiles under its name.
+// A measure with `std::optional<Sample> sample(const Triangle&)` is a distribution: each sample is
+// handed to its accumulate(const Sample&), and finish() finds the exact percentiles of all of them in
+// facts.quantiles under its name.
 
 template <class M, class Group>
 concept Accumulates = requires(M measure, const Group& group) { measure.accumulate(group); };
 
 template <class M>
-concept Sampled = requires(const M measure, const Triangle& triangle) {
+concept Sampled = requires(M measure, const Triangle& triangle, const Sample& sample) {
   { measure.sample(triangle) } -> std::same_as<std::optional<Sample>>;
+  measure.accumulate(sample);
 };
 
 /// A measure without its type: one virtual call a batch.
@@ -77,12 +79,13 @@ class MeasureOf final : public AnyMeasure {
   void accept(std::span<const Component> groups) override { accumulate(groups); }
   void accept(std::span<const Chart> groups) override { accumulate(groups); }
   void sample(std::size_t, std::span<const Triangle> triangles,
-              std::vector<Sample>& samples) const override {
+              std::vector<Sample>& samples) override {
     if constexpr (Sampled<M>) {
       for (const Triangle& triangle : triangles) {
-        if (const std::optional<Sample> sample = measure_.sample(triangle)) {
-          samples.push_back(*sample);
-        }
+        const std::optional<Sample> taken = measure_.sample(triangle);
+        if (!taken) continue;
+        measure_.accumulate(*taken);
+        samples.push_back(*taken);
       }
     }
   }

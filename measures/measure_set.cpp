@@ -19,7 +19,7 @@ class MeasureSet::Partials : public GroupSink {
   void accept(std::span<const Component> groups) override { hand_over(groups); }
   void accept(std::span<const Chart> groups) override { hand_over(groups); }
   void sample(std::size_t distribution, std::span<const Triangle> triangles,
-              std::vector<Sample>& samples) const override {
+              std::vector<Sample>& samples) override {
     sampled_[distribution]->sample(distribution, triangles, samples);
   }
 

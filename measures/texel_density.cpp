@@ -18,11 +18,7 @@ struct TexelDensity {
     return Sample{std::sqrt(std::abs(triangle.area_uv) / triangle.area_3d), triangle.area_3d};
   }
 
-  void accumulate(const Triangle& triangle) {
-    if (const std::optional<Sample> taken = sample(triangle)) {
-      moments.add(taken->value, taken->weight);
-    }
-  }
+  void accumulate(const Sample& taken) { moments.add(taken.value, taken.weight); }
 
   void merge(const TexelDensity& other) { moments.merge(other.moments); }
 

@@ -36,11 +36,7 @@ struct TriangleShape {
                   triangle.area_3d};
   }
 
-  void accumulate(const Triangle& triangle) {
-    if (const std::optional<Sample> taken = sample(triangle)) {
-      moments.add(taken->value, taken->weight);
-    }
-  }
+  void accumulate(const Sample& taken) { moments.add(taken.value, taken.weight); }
 
   void merge(const TriangleShape& other) { moments.merge(other.moments); }
 

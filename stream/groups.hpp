@@ -72,9 +72,9 @@ class GroupSink {
   virtual void accept(std::span<const VertexStar> stars) = 0;
   virtual void accept(std::span<const Component> components) = 0;
   virtual void accept(std::span<const Chart> charts) = 0;
-  /// The samples that a distribution takes of these triangles are appended.
+  /// Appends the samples that a distribution takes of these triangles.
   virtual void sample(std::size_t distribution, std::span<const Triangle> triangles,
-                      std::vector<Sample>& samples) const = 0;
+                      std::vector<Sample>& samples) = 0;
 };
 
 /// One sink a worker, and the names of the distributions they sample.

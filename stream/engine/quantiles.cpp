@@ -30,7 +30,7 @@ struct Interval {
   std::uint64_t first;
   std::uint64_t last;
   Int128 weight_below = 0;  ///< of all smaller keys
-  std::int64_t weight = 0;  ///< of its own keys; once it is a single one
+  Int128 weight = 0;        ///< of its own keys, once it is a single one
   unsigned shift = 0;
   std::size_t first_bin = 0;
   std::size_t bins = 0;
@@ -39,9 +39,19 @@ struct Interval {
   std::size_t bin_of(std::uint64_t key) const { return first_bin + ((key - first) >> shift); }
 };
 
+/// What fell into a bin, and between which keys: often a single one, which ends the search there.
 struct Bin {
   Int128 weight = 0;
   std::uint64_t samples = 0;
+  std::uint64_t smallest = ~std::uint64_t{0};
+  std::uint64_t largest = 0;
+
+  void merge(const Bin& other) {
+    weight += other.weight;
+    samples += other.samples;
+    smallest = std::min(smallest, other.smallest);
+    largest = std::max(largest, other.largest);
+  }
 };
 
 /// Selects all quantiles of one store together. A quantile is the key k for which
@@ -75,7 +85,7 @@ class Selection {
 
   struct KeyWeight {
     std::uint64_t key;
-    std::int64_t weight;
+    Int128 weight;
     bool operator<(const KeyWeight& other) const { return key < other.key; }
   };
 
@@ -107,7 +117,7 @@ class Selection {
 
   template <class Use>
   void visit_samples(Use use) {
-    std::vector<AlignedBytes> buffers(engine_.workers.count());
+    std::vector<BlockBuffer> buffers(engine_.workers.count());
     engine_.workers.for_each(samples_.block_count(), [&](std::size_t worker, std::size_t block) {
       for (const Sample& sample : samples_.load(block, buffers[worker])) {
         const std::uint64_t key = key_of(sample.value);
@@ -123,14 +133,11 @@ class Selection {
                                                              intervals_.back().bins));
     visit_samples([&](std::size_t worker, const Interval& interval, std::uint64_t key,
                       const Sample& sample) {
-      Bin& bin = of_worker[worker][interval.bin_of(key)];
-      bin.weight += weight_.of(sample.weight);
-      ++bin.samples;
+      of_worker[worker][interval.bin_of(key)].merge({weight_.of(sample.weight), 1, key, key});
     });
     for (std::size_t worker = 1; worker < of_worker.size(); ++worker) {
       for (std::size_t i = 0; i < of_worker[0].size(); ++i) {
-        of_worker[0][i].weight += of_worker[worker][i].weight;
-        of_worker[0][i].samples += of_worker[worker][i].samples;
+        of_worker[0][i].merge(of_worker[worker][i]);
       }
     }
     return std::move(of_worker[0]);
@@ -148,10 +155,7 @@ class Selection {
       for (std::size_t i = 0; i < interval.bins; ++i) {
         const Bin& bin = bins[interval.first_bin + i];
         if (holds_target(below, below + bin.weight)) {
-          const std::uint64_t first = interval.first + (std::uint64_t{i} << interval.shift);
-          const std::uint64_t width_less_one = (std::uint64_t{1} << interval.shift) - 1;
-          narrowed.push_back({first, std::min(interval.last, first + width_less_one), below,
-                              static_cast<std::int64_t>(bin.weight)});
+          narrowed.push_back({bin.smallest, bin.largest, below, bin.weight});
           samples += bin.samples;
         }
         below += bin.weight;

@@ -31,8 +31,8 @@ int open_unnamed(const std::string& directory, int flags) {
 
 }  // namespace
 
-AlignedBytes::AlignedBytes(std::size_t bytes) : size_(rounded_up(bytes)) {
-  data_.reset(static_cast<std::byte*>(std::aligned_alloc(Scratch::kAlignment, size_)));
+AlignedBytes::AlignedBytes(std::size_t bytes) {
+  data_.reset(static_cast<std::byte*>(std::aligned_alloc(Scratch::kAlignment, rounded_up(bytes))));
   if (data_ == nullptr) throw std::bad_alloc();
 }
 
@@ -60,6 +60,19 @@ void Scratch::open_file() {
                 "cannot make a scratch file: " + errno_text() +
                     "; give a writable directory with --tmp-dir");
   }
+}
+
+AlignedBytes Scratch::take_buffer() {
+  const std::lock_guard lock(mutex_);
+  if (spare_buffers_.empty()) return AlignedBytes(block_bytes_);
+  AlignedBytes buffer = std::move(spare_buffers_.back());
+  spare_buffers_.pop_back();
+  return buffer;
+}
+
+void Scratch::return_buffer(AlignedBytes buffer) {
+  const std::lock_guard lock(mutex_);
+  if (spare_buffers_.size() < kSpareBuffers) spare_buffers_.push_back(std::move(buffer));
 }
 
 Scratch::BlockId Scratch::allocate() {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stream/engine/budget.hpp"
@@ -17,7 +18,6 @@ class AlignedBytes {
   AlignedBytes() = default;
   explicit AlignedBytes(std::size_t bytes);
   std::byte* data() const { return data_.get(); }
-  std::size_t size() const { return size_; }
   explicit operator bool() const { return data_ != nullptr; }
 
  private:
@@ -25,7 +25,6 @@ class AlignedBytes {
     void operator()(std::byte* p) const;
   };
   std::unique_ptr<std::byte, Free> data_;
-  std::size_t size_ = 0;
 };
 
 /// Where everything that does not fit in memory goes: one store of equal blocks.
@@ -55,6 +54,10 @@ class Scratch {
   Scratch& operator=(const Scratch&) = delete;
 
   std::size_t block_bytes() const { return block_bytes_; }
+
+  /// Memory for one block, taken from a few that are kept for the next to ask.
+  AlignedBytes take_buffer();
+  void return_buffer(AlignedBytes buffer);
 
   BlockId allocate();
   void free(BlockId block);
@@ -86,7 +89,10 @@ class Scratch {
   AlignedBytes pool_;
   int file_ = -1;
 
+  static constexpr std::size_t kSpareBuffers = 8;
+
   mutable std::mutex mutex_;
+  std::vector<AlignedBytes> spare_buffers_;
   std::vector<BlockId> free_resident_;
   std::vector<BlockId> free_on_disk_;
   BlockId next_resident_ = 0;
@@ -96,6 +102,35 @@ class Scratch {
   std::uint64_t spilled_blocks_ = 0;
   std::uint64_t written_bytes_ = 0;
   mutable std::uint64_t read_bytes_ = 0;
+};
+
+/// Memory for one block, made when first asked for and given back at the end.
+class BlockBuffer {
+ public:
+  BlockBuffer() = default;
+  BlockBuffer(BlockBuffer&& other) noexcept
+      : scratch_(other.scratch_), bytes_(std::move(other.bytes_)) {}
+  BlockBuffer& operator=(BlockBuffer&& other) noexcept {
+    std::swap(scratch_, other.scratch_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+  }
+  ~BlockBuffer() { release(); }
+
+  std::byte* data(Scratch& scratch) {
+    if (!bytes_) {
+      scratch_ = &scratch;
+      bytes_ = scratch.take_buffer();
+    }
+    return bytes_.data();
+  }
+  void release() {
+    if (bytes_) scratch_->return_buffer(std::move(bytes_));
+  }
+
+ private:
+  Scratch* scratch_ = nullptr;
+  AlignedBytes bytes_;
 };
 
 }  // namespace atlasgauge

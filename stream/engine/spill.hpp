@@ -51,12 +51,11 @@ class Spill {
 
   /// The records of one block: in place when the block is resident, else read into `buffer`, which
   /// is made when first needed.
-  std::span<const T> load(std::size_t index, AlignedBytes& buffer) const {
+  std::span<const T> load(std::size_t index, BlockBuffer& buffer) const {
     const std::size_t count = records_in_block(index);
     std::byte* bytes = scratch_->resident(blocks_[index]);
     if (bytes == nullptr) {
-      if (!buffer) buffer = AlignedBytes(scratch_->block_bytes());
-      bytes = buffer.data();
+      bytes = buffer.data(*scratch_);
       scratch_->read(blocks_[index], 0, bytes, count * sizeof(T));
     }
     return {reinterpret_cast<const T*>(bytes), count};
@@ -120,7 +119,7 @@ class SpillWriter {
   /// The records so far; the writer starts over, empty.
   Spill<T> finish() {
     if (in_block_ > 0) close_block();
-    buffer_ = AlignedBytes();
+    buffer_.release();
     return std::exchange(spill_, Spill<T>(*scratch_));
   }
 
@@ -129,8 +128,7 @@ class SpillWriter {
     block_ = scratch_->allocate();
     cursor_ = scratch_->resident(block_);
     if (cursor_ != nullptr) return;
-    if (!buffer_) buffer_ = AlignedBytes(scratch_->block_bytes());
-    cursor_ = buffer_.data();
+    cursor_ = buffer_.data(*scratch_);
   }
 
   void close_block() {
@@ -141,7 +139,7 @@ class SpillWriter {
 
   Spill<T> spill_;
   Scratch* scratch_;
-  AlignedBytes buffer_;
+  BlockBuffer buffer_;
   Scratch::BlockId block_ = 0;
   std::byte* cursor_ = nullptr;
   std::size_t in_block_ = 0;
@@ -189,7 +187,7 @@ class SpillReader {
 
   Spill<T>* spill_;
   Mode mode_;
-  AlignedBytes buffer_;
+  BlockBuffer buffer_;
   std::span<const T> rest_;
   std::size_t next_ = 0;
   bool left_end_ = false;

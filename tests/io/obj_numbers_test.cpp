@@ -14,36 +14,41 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// A word with what must follow it.
+std::string line_of(const std::string& word) {
+  return word + '\n' + std::string(kReadAheadBytes, '9');
+}
+
 double double_of(const std::string& word) {
   double value = 0;
-  const std::string text = word + '\n';
+  const std::string text = line_of(word);
   EXPECT_EQ(read_double(text.data(), value), text.data() + word.size()) << word;
   return value;
 }
 
 float float_of(const std::string& word) {
   float value = 0;
-  const std::string text = word + '\n';
+  const std::string text = line_of(word);
   EXPECT_EQ(read_float(text.data(), value), text.data() + word.size()) << word;
   return value;
 }
 
 bool is_double(const std::string& word) {
   double value = 0;
-  const std::string text = word + '\n';
+  const std::string text = line_of(word);
   return read_double(text.data(), value) != nullptr;
 }
 
 std::int64_t index_of(const std::string& word) {
   std::int64_t value = 0;
-  const std::string text = word + '\n';
+  const std::string text = line_of(word);
   EXPECT_EQ(read_index(text.data(), value), text.data() + word.size()) << word;
   return value;
 }
 
 bool is_index(const std::string& word) {
   std::int64_t value = 0;
-  const std::string text = word + '\n';
+  const std::string text = line_of(word);
   return read_index(text.data(), value) != nullptr;
 }
 
@@ -166,7 +171,7 @@ TEST(ObjNumbersTest, OtherWordsAreNoNumbers) {
 
 TEST(ObjNumbersTest, IndicesEndAtASlashOrABlank) {
   std::int64_t value = 0;
-  const std::string text = "-12/3 ";
+  const std::string text = line_of("-12/3");
   EXPECT_EQ(read_index(text.data(), value), text.data() + 3);
   EXPECT_EQ(value, -12);
   EXPECT_EQ(index_of("+7"), 7);

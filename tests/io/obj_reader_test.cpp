@@ -165,7 +165,7 @@ TEST(ObjReaderTest, AFileCutAnywhereGivesValuesOrAnError) {
 
 TEST(ObjReaderTest, AnyBytesGiveValuesOrAnErrorForEveryBlockSize) {
   std::mt19937 random(11);
-  const std::string alphabet("vtfn0123456789.-+/# \\\r\n\v\tusemtlib\0\xFF", 38);
+  const std::string alphabet = "vtfn0123456789.-+/# \\\r\n\v\tusemtlib\xFF" + std::string(1, '\0');
   for (int round = 0; round < 3000; ++round) {
     std::string text;
     for (std::size_t i = 0; i < 300; ++i) text += alphabet[random() % alphabet.size()];

@@ -83,6 +83,7 @@ TEST_F(TextureSlotsTest, ImagesAreLookedForBesideTheLibraryThenBesideTheModel) {
 TEST_F(TextureSlotsTest, LibrariesMayLieInAnotherFolder) {
   dir_.write("elsewhere/a.mtl", "newmtl a\nmap_Kd 1.png\n");
   dir_.write("elsewhere/1.png", "x");
+  dir_.write("models/model.obj", "");
   EXPECT_TRUE(resolve({"../elsewhere/a.mtl"}, {"a"}).slots[0].readable);
   EXPECT_TRUE(resolve({(dir_.path() / "elsewhere/a.mtl").string()}, {"a"}).slots[0].readable);
 }
