@@ -14,8 +14,9 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& text) {
   throw Error(ErrorKind::kUsage,
-              "'" + text + "' is not a size; give a number of bytes, or one with K, M, G or T, "
-              "as in 512M");
+              "'" + text +
+                  "' is not a size; give a number of bytes, or one with K, M, G or T, "
+                  "as in 512M");
 }
 
 /// Binary digits that a unit stands for, or -1.

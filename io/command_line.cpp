@@ -89,8 +89,9 @@ CommandLine parse_command_line(std::vector<std::string> arguments) {
   if (!arguments.empty() && arguments.front() == "measure") arguments.erase(arguments.begin());
   CommandLine line;
   Texts texts;
-  CLI::App app("Measures a textured mesh that need not fit in memory.\n"
-               "Usage: atlasgauge [measure] MODEL [OPTIONS]");
+  CLI::App app(
+      "Measures a textured mesh that need not fit in memory.\n"
+      "Usage: atlasgauge [measure] MODEL [OPTIONS]");
   describe(app, line.options, texts);
   std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them last first
   try {

@@ -18,6 +18,8 @@ Error::Error(ErrorKind kind, const std::string& text) : std::runtime_error(text)
 Error::Error(ErrorKind kind, const std::string& path, std::uint64_t line, const std::string& text)
     : std::runtime_error(located(path, line, text)), kind_(kind) {}
 
-std::string errno_text() { return std::generic_category().message(errno); }
+std::string errno_text() {
+  return std::generic_category().message(errno);
+}
 
 }  // namespace atlasgauge

@@ -27,9 +27,9 @@ struct FaceRecord {
 };
 static_assert(sizeof(FaceRecord) == 28);
 
-/// Faces [first_face, first_face + face_count) came from one polygon that names a vertex not read by
-/// then. They are dropped, and count as one invalid polygon, unless max_vertex turns out to exist.
-/// max_vertex = UINT64_MAX never exists. Emitted in ascending order of first_face.
+/// Faces [first_face, first_face + face_count) came from one polygon that names a vertex not read
+/// by then. They are dropped, and count as one invalid polygon, unless max_vertex turns out to
+/// exist. max_vertex = UINT64_MAX never exists. Emitted in ascending order of first_face.
 struct ForwardPolygon {
   std::uint64_t first_face;
   std::uint64_t face_count;

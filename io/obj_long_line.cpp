@@ -27,7 +27,6 @@ void ObjLongLine::begin(const Before& before) {
   part_ = Part::kKeyword;
   statement_ = ObjStatement::kIgnored;
   word_.clear();
-  in_word_ = false;
   has_zero_byte_ = false;
   name_bytes_ = 0;
   words_ = 0;
@@ -63,9 +62,8 @@ ObjDefect ObjLongLine::defect() const {
 }
 
 const char* ObjLongLine::feed_keyword(const char* text, const char* end) {
-  if (!in_word_) text = std::find_if_not(text, end, is_blank);
+  if (word_.empty()) text = std::find_if_not(text, end, is_blank);
   if (text == end) return end;
-  in_word_ = true;
   const char* const word_end = std::find_if(text, end, is_word_end);
   has_zero_byte_ = has_zero_byte_ || has_zero_byte(text, word_end);
   const auto bytes = static_cast<std::size_t>(word_end - text);
@@ -75,7 +73,6 @@ const char* ObjLongLine::feed_keyword(const char* text, const char* end) {
 }
 
 void ObjLongLine::end_keyword() {
-  in_word_ = false;
   statement_ = classify_statement(word_);
   switch (statement_) {
     case ObjStatement::kPosition:
@@ -99,33 +96,38 @@ void ObjLongLine::end_keyword() {
 
 const char* ObjLongLine::feed_words(const char* text, const char* end,
                                     FixedArray<FaceRecord>& faces) {
-  if (!in_word_) {
+  if (word_.empty()) {
     text = std::find_if_not(text, end, is_blank);
     if (text == end) return end;
     if (*text == '#' || *text == '\n') {
       part_ = Part::kIgnored;
       return text;
     }
-    in_word_ = true;
   }
   const char* const word_end = std::find_if(text, end, is_word_end);
-  const auto bytes = static_cast<std::size_t>(word_end - text);
-  if (bytes > kMaxWordBytes - word_.size()) fail(overlong_word("a word"));
-  word_.append(text, bytes);
-  if (word_end != end) end_word(faces);
+  const std::string_view rest(text, static_cast<std::size_t>(word_end - text));
+  if (rest.size() > kMaxWordBytes - word_.size()) fail(overlong_word("a word"));
+  if (word_.empty() && word_end != end) {
+    read_word(rest, faces);
+    return word_end;
+  }
+  word_ += rest;
+  if (word_end != end) read_kept_word(faces);
   return word_end;
 }
 
-void ObjLongLine::end_word(FixedArray<FaceRecord>& faces) {
+void ObjLongLine::read_kept_word(FixedArray<FaceRecord>& faces) {
   const std::size_t word_bytes = word_.size();
   word_.append(1 + kReadAheadBytes, '\n');
-  const std::string_view word(word_.data(), word_bytes);
+  read_word({word_.data(), word_bytes}, faces);
+  word_.clear();
+}
+
+void ObjLongLine::read_word(std::string_view word, FixedArray<FaceRecord>& faces) {
   if (statement_ == ObjStatement::kPosition) read_position_word(word);
   if (statement_ == ObjStatement::kTexCoord) read_texcoord_word(word);
   if (statement_ == ObjStatement::kFace) read_corner_word(word, faces);
   ++words_;
-  word_.clear();
-  in_word_ = false;
 }
 
 void ObjLongLine::read_position_word(std::string_view word) {

@@ -28,7 +28,8 @@ class ObjLongLine {
   void begin(const Before& before);
 
   /// Reads on. The triangles of a polygon go to `faces`; returns where it stopped, which is short
-  /// of `end` if there is no more room. Throws Error(kInput).
+  /// of `end` if there is no more room. kReadAheadBytes after `end` must be readable, too. Throws
+  /// Error(kInput).
   const char* feed(const char* text, const char* end, FixedArray<FaceRecord>& faces);
 
   /// What the line turned out to be. The rest is valid when the whole line was fed.
@@ -51,7 +52,8 @@ class ObjLongLine {
   const char* feed_ignored(const char* text, const char* end);
 
   void end_keyword();
-  void end_word(FixedArray<FaceRecord>& faces);
+  void read_kept_word(FixedArray<FaceRecord>& faces);
+  void read_word(std::string_view word, FixedArray<FaceRecord>& faces);
   void read_position_word(std::string_view word);
   void read_texcoord_word(std::string_view word);
   void read_corner_word(std::string_view word, FixedArray<FaceRecord>& faces);
@@ -66,7 +68,6 @@ class ObjLongLine {
   Part part_ = Part::kKeyword;
   ObjStatement statement_ = ObjStatement::kIgnored;
   std::string word_;  // so far; a name with its blanks
-  bool in_word_ = false;
   bool has_zero_byte_ = false;
   std::size_t name_bytes_ = 0;  // of word_, without the blanks at its end
   std::uint64_t words_ = 0;     // after the keyword

@@ -9,10 +9,10 @@ namespace atlasgauge {
 /// its end. "-" always can.
 void check_writable(const std::string& path);
 
-/// Writes a whole file or none: into a file without a name in the same folder, flushed to disk, then
-/// renamed over `path`, so an older file stays until the new one is complete. "-" is standard output;
-/// anything that is not a regular file (a pipe, a device) is written directly.
-/// Throws Error(kResource).
+/// Writes a whole file or none: into a file without a name in the same folder, flushed to disk,
+/// then renamed over `path`, so an older file stays until the new one is complete. "-" is standard
+/// output; anything that is not a regular file (a pipe, a device) is written directly. Throws
+/// Error(kResource).
 void write_file(const std::string& path, std::string_view text);
 
 }  // namespace atlasgauge

@@ -27,8 +27,8 @@ class Saver {
       value.serialize(*this);
     } else {
       static_assert(std::is_trivially_copyable_v<Value>);
-      const auto* first = reinterpret_cast<const std::byte*>(&value);
-      bytes_.insert(bytes_.end(), first, first + sizeof(Value));
+      bytes_.resize(bytes_.size() + sizeof(Value));
+      std::memcpy(bytes_.data() + bytes_.size() - sizeof(Value), &value, sizeof(Value));
     }
   }
 

@@ -47,7 +47,8 @@ struct Crumbliness {
     report.set("area_uv", area.value());
     report.set("boundary_len_uv", boundary_length.value());
     report.set("crumbliness", crumbliness);
-    report.set("solidity", disk > 0 ? 1 / crumbliness : crumbliness);  // neither exists over no area
+    report.set("solidity",
+               disk > 0 ? 1 / crumbliness : crumbliness);  // neither exists over no area
   }
 };
 

@@ -6,8 +6,8 @@
 namespace atlasgauge {
 namespace {
 
-/// Quasi-conformal distortion s_max / s_min of mapped faces, by area. Faces of 100 and more are left
-/// out, as the peer does; their area says how much that is.
+/// Quasi-conformal distortion s_max / s_min of mapped faces, by area. Faces of 100 and more are
+/// left out, as the peer does; their area says how much that is.
 struct Distortion {
   static constexpr std::string_view name = "qcd";
   static constexpr double kLargest = 100;

@@ -11,8 +11,8 @@ struct Product {
   double high, low;
 };
 
-/// a * b as the unevaluated sum of its rounded value and the error (T. J. Dekker, 1971). Written out,
-/// because std::fma is a library call on machines without it.
+/// a * b as the unevaluated sum of its rounded value and the error (T. J. Dekker, 1971). Written
+/// out, because std::fma is a library call on machines without it.
 Product exact_product(double a, double b) {
   const auto split = [](double x) {
     const double c = 134217729.0 * x;  // 2^27 + 1
@@ -102,6 +102,8 @@ Float128 ExactSum::precise() const {
   return negative ? -value : value;
 }
 
-double ExactSum::value() const { return static_cast<double>(precise()); }
+double ExactSum::value() const {
+  return static_cast<double>(precise());
+}
 
 }  // namespace atlasgauge

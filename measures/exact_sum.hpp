@@ -10,8 +10,8 @@ namespace atlasgauge {
 __extension__ typedef __float128 Float128;
 
 /// A sum of doubles without rounding, so that it does not depend on the order of the terms, and
-/// partial sums can be merged. The bits of each term are added to 64-bit chunks that overlap by half
-/// (the small superaccumulator of R. M. Neal, "Fast exact summation using small and large
+/// partial sums can be merged. The bits of each term are added to 64-bit chunks that overlap by
+/// half (the small superaccumulator of R. M. Neal, "Fast exact summation using small and large
 /// superaccumulators", 2015); carries are propagated once in a while. About half a kilobyte.
 class ExactSum {
  public:

@@ -55,9 +55,8 @@ void measure(const Options& options) {
   MemoryBudget budget(plan.engine_bytes);
   Scratch scratch({options.tmp_dir, plan.block_bytes, plan.resident_bytes}, budget);
   ProgressBar bar(shows_progress(options));
-  StageLog log(scratch, workers, [&](const std::string& stage, double done) {
-    bar.update(stage, done);
-  });
+  StageLog log(scratch, workers,
+               [&](const std::string& stage, double done) { bar.update(stage, done); });
   const Engine engine{budget, scratch, workers, log};
   Warnings warnings(
       [&](const std::string& text) {

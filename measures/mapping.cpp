@@ -5,9 +5,9 @@
 
 namespace atlasgauge {
 
-/// With the first 3D edge as x axis the triangle is (0,0), (x1,0), (x2,y2); its images make the columns
-/// of J. For J = [a b; c d], Q = |(a+d, c-b)|/2 and R = |(a-d, c+b)|/2 give s_max = Q + R; s_min comes
-/// from the determinant, which is the ratio of the areas, because Q - R cancels.
+/// With the first 3D edge as x axis the triangle is (0,0), (x1,0), (x2,y2); its images make the
+/// columns of J. For J = [a b; c d], Q = |(a+d, c-b)|/2 and R = |(a-d, c+b)|/2 give s_max = Q + R;
+/// s_min comes from the determinant, which is the ratio of the areas, because Q - R cancels.
 double quasi_conformal_distortion(const Triangle& triangle) {
   const Position& p0 = triangle.p[0];
   const Position &p1 = triangle.p[1], &p2 = triangle.p[2];

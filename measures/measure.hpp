@@ -20,10 +20,10 @@ namespace atlasgauge {
 //   struct Wedges {
 //     static constexpr std::string_view name = "wedges";
 //     std::uint64_t count = 0;
-//     void accumulate(const UvEdge& edge) { count += edge.faces; }   // any of the groups, any number
-//     void merge(const Wedges& other) { count += other.count; }
-//     template <class Archive> void serialize(Archive& a) { a(count); }
-//     void finish(const MeshFacts& facts, Report& report) const { report.set("wedges", count); }
+//     void accumulate(const UvEdge& edge) { count += edge.faces; }   // any of the groups, any
+//     number void merge(const Wedges& other) { count += other.count; } template <class Archive>
+//     void serialize(Archive& a) { a(count); } void finish(const MeshFacts& facts, Report& report)
+//     const { report.set("wedges", count); }
 //   };
 //   const Registered<Wedges> registered;
 //
@@ -32,11 +32,13 @@ namespace atlasgauge {
 // saved and loaded is the same.
 //
 // A measure with `std::optional<Sample> sample(const Triangle&)` is a distribution: each sample is
-// handed to its accumulate(const Sample&), and finish() finds the exact percentiles of all of them in
-// facts.quantiles under its name.
+// handed to its accumulate(const Sample&), and finish() finds the exact percentiles of all of them
+// in facts.quantiles under its name.
 
 template <class M, class Group>
-concept Accumulates = requires(M measure, const Group& group) { measure.accumulate(group); };
+concept Accumulates = requires(M measure, const Group& group) {
+  measure.accumulate(group);
+};
 
 template <class M>
 concept Sampled = requires(M measure, const Triangle& triangle, const Sample& sample) {

@@ -51,7 +51,9 @@ std::vector<std::string> MeasureSet::distributions() const {
   return names;
 }
 
-GroupSink& MeasureSet::of_worker(std::size_t worker) { return *partials_[worker]; }
+GroupSink& MeasureSet::of_worker(std::size_t worker) {
+  return *partials_[worker];
+}
 
 Report MeasureSet::finish(const MeshFacts& facts) {
   for (std::size_t i = 1; i < partials_.size(); ++i) partials_[0]->merge(*partials_[i]);

@@ -12,7 +12,9 @@ namespace {
 
 using Keys = std::vector<std::string>;
 
-void append(Keys& keys, const Keys& more) { keys.insert(keys.end(), more.begin(), more.end()); }
+void append(Keys& keys, const Keys& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+}
 
 Keys moments(const std::string& prefix) {
   return {prefix + "_min", prefix + "_max", prefix + "_avg",
@@ -30,11 +32,36 @@ Keys statistics(const std::string& prefix) {
 
 /// SPEC sections 2 and 3, in their order.
 Keys ordered_keys(std::size_t textures) {
-  Keys keys{"mesh", "fn", "vn", "en", "en_b", "nonmanif_edge", "nonmanif_vert", "area",
-            "boundary_len", "area_normalized", "boundary_len_normalized", "connected_components",
-            "boundary_loops", "genus", "fndup", "fnzero", "fndegen", "vnunref", "oriented",
-            "orientable", "num_charts", "num_null_charts", "en_uv", "en_uv_b", "area_uv",
-            "boundary_len_uv", "mapped_fraction", "nfolds", "ntex", "textures"};
+  Keys keys{"mesh",
+            "fn",
+            "vn",
+            "en",
+            "en_b",
+            "nonmanif_edge",
+            "nonmanif_vert",
+            "area",
+            "boundary_len",
+            "area_normalized",
+            "boundary_len_normalized",
+            "connected_components",
+            "boundary_loops",
+            "genus",
+            "fndup",
+            "fnzero",
+            "fndegen",
+            "vnunref",
+            "oriented",
+            "orientable",
+            "num_charts",
+            "num_null_charts",
+            "en_uv",
+            "en_uv_b",
+            "area_uv",
+            "boundary_len_uv",
+            "mapped_fraction",
+            "nfolds",
+            "ntex",
+            "textures"};
   for (std::size_t i = 0; i < textures; ++i) keys.push_back("texture_" + std::to_string(i));
   append(keys, {"occupancy"});
   append(keys, statistics("qcd"));
@@ -46,11 +73,11 @@ Keys ordered_keys(std::size_t textures) {
   append(keys, statistics("conformality"));
   append(keys, {"sf_untrimmed_avg", "sf_untrimmed_var"});
   append(keys, statistics("angle_min"));
-  append(keys, {"vndup", "euler", "boundary_components", "largest_component_fn", "seam_edges",
-                "seam_len", "faces_unmapped", "faces_untextured", "faces_uv_outside",
-                "faces_invalid", "faces_nonfinite", "uv_far", "charts_nonorientable",
-                "seam_edges_unsampled", "overlap_within_chart_texels",
-                "overlap_between_charts_texels"});
+  append(keys,
+         {"vndup", "euler", "boundary_components", "largest_component_fn", "seam_edges", "seam_len",
+          "faces_unmapped", "faces_untextured", "faces_uv_outside", "faces_invalid",
+          "faces_nonfinite", "uv_far", "charts_nonorientable", "seam_edges_unsampled",
+          "overlap_within_chart_texels", "overlap_between_charts_texels"});
   append(keys, statistics("texel_density"));
   return keys;
 }

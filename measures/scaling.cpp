@@ -8,9 +8,9 @@
 namespace atlasgauge {
 namespace {
 
-/// UV scaling s_f = (A_uv / A_3d) / (sum A_uv / sum A_3d) by area, over all mapped faces, as the paper
-/// defines it. The average is 1 by construction. The trimmed sf_* need the occupancy and are not
-/// measured yet.
+/// UV scaling s_f = (A_uv / A_3d) / (sum A_uv / sum A_3d) by area, over all mapped faces, as the
+/// paper defines it. The average is 1 by construction. The trimmed sf_* need the occupancy and are
+/// not measured yet.
 struct Scaling {
   static constexpr std::string_view name = "scaling";
 

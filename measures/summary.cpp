@@ -48,9 +48,10 @@ class Table {
     if (value.is_number() && value.get<double>() != 0) row(what, key);
   }
   void spread(std::string_view what, const std::string& prefix, std::string_view note = "") {
-    text_ += fmt::format("  {:<28}{:>18}{:>12}{:>12}{:>12}", what, text_of(json_.at(prefix + "_avg")),
-                         text_of(json_.at(prefix + "_perc1")), text_of(json_.at(prefix + "_perc50")),
-                         text_of(json_.at(prefix + "_perc99")));
+    text_ +=
+        fmt::format("  {:<28}{:>18}{:>12}{:>12}{:>12}", what, text_of(json_.at(prefix + "_avg")),
+                    text_of(json_.at(prefix + "_perc1")), text_of(json_.at(prefix + "_perc50")),
+                    text_of(json_.at(prefix + "_perc99")));
     if (!note.empty()) text_ += fmt::format("  {}", note);
     text_ += '\n';
   }

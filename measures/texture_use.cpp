@@ -5,7 +5,9 @@
 namespace atlasgauge {
 namespace {
 
-bool outside_unit_square(const TexCoord& t) { return t.u < 0 || t.u > 1 || t.v < 0 || t.v > 1; }
+bool outside_unit_square(const TexCoord& t) {
+  return t.u < 0 || t.u > 1 || t.v < 0 || t.v > 1;
+}
 
 /// The textures, and faces that do not meet them as they should.
 struct TextureUse {

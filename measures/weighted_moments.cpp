@@ -37,6 +37,8 @@ double WeightedMoments::variance() const {
   return variance < 0 ? 0 : variance;
 }
 
-double WeightedMoments::standard_deviation() const { return std::sqrt(variance()); }
+double WeightedMoments::standard_deviation() const {
+  return std::sqrt(variance());
+}
 
 }  // namespace atlasgauge

@@ -9,8 +9,8 @@
 namespace atlasgauge {
 
 /// Mean, root mean square, population variance and range of weighted values. The moments about zero
-/// are summed to more than 100 bits, so that the variance keeps its digits even where all values are
-/// nearly equal.
+/// are summed to more than 100 bits, so that the variance keeps its digits even where all values
+/// are nearly equal.
 class WeightedMoments {
  public:
   void add(double value, double weight);
@@ -22,8 +22,12 @@ class WeightedMoments {
   double variance() const;
   double standard_deviation() const;
   /// NaN where there is no value.
-  double smallest() const { return count_ > 0 ? smallest_ : std::numeric_limits<double>::quiet_NaN(); }
-  double largest() const { return count_ > 0 ? largest_ : std::numeric_limits<double>::quiet_NaN(); }
+  double smallest() const {
+    return count_ > 0 ? smallest_ : std::numeric_limits<double>::quiet_NaN();
+  }
+  double largest() const {
+    return count_ > 0 ? largest_ : std::numeric_limits<double>::quiet_NaN();
+  }
 
   template <class Archive>
   void serialize(Archive& archive) {

@@ -35,9 +35,10 @@ struct SeamEdge {
 struct VertexStar {
   std::uint64_t corners;
   std::uint64_t boundary_edges;
-  bool nonmanifold_edge;          ///< some edge at it has more than two faces
-  bool one_fan;                   ///< its faces are joined across its edges into one fan
-  std::uint64_t duplicate_faces;  ///< faces, of which it is the smallest vertex, that repeat another
+  bool nonmanifold_edge;  ///< some edge at it has more than two faces
+  bool one_fan;           ///< its faces are joined across its edges into one fan
+  std::uint64_t
+      duplicate_faces;  ///< faces, of which it is the smallest vertex, that repeat another
 };
 
 /// A connected component of faces over raw edges.

@@ -27,16 +27,16 @@ constexpr std::uint64_t kBlocksPerEngine = 256;
 
 std::uint64_t engine_share(std::uint64_t limit_bytes, std::size_t workers) {
   if (limit_bytes < kFloorBytes) {
-    throw Error(ErrorKind::kResource,
-                "--memory " + format_bytes(limit_bytes) + " is too little; give at least " +
-                    format_bytes(kFloorBytes));
+    throw Error(ErrorKind::kResource, "--memory " + format_bytes(limit_bytes) +
+                                          " is too little; give at least " +
+                                          format_bytes(kFloorBytes));
   }
   const std::uint64_t process_bytes = kProcessBytes + workers * kWorkerBytes;
   if (process_bytes + kSmallestEngineBytes > limit_bytes) {
-    throw Error(ErrorKind::kResource,
-                "--memory " + format_bytes(limit_bytes) + " is too little for " +
-                    std::to_string(workers) + " threads; give fewer threads or at least " +
-                    format_bytes(process_bytes + 64 * kMiB));
+    throw Error(ErrorKind::kResource, "--memory " + format_bytes(limit_bytes) +
+                                          " is too little for " + std::to_string(workers) +
+                                          " threads; give fewer threads or at least " +
+                                          format_bytes(process_bytes + 64 * kMiB));
   }
   return std::min(kLargestEngineBytes, limit_bytes - process_bytes);
 }

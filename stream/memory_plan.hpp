@@ -9,8 +9,8 @@ namespace atlasgauge {
 
 /// How the memory limit of the process is split.
 struct MemoryPlan {
-  std::uint64_t limit_bytes = 0;  ///< of the resident memory of the process
-  std::string origin;             ///< what set the limit
+  std::uint64_t limit_bytes = 0;     ///< of the resident memory of the process
+  std::string origin;                ///< what set the limit
   std::uint64_t engine_bytes = 0;    ///< the budget of the engine
   std::uint64_t resident_bytes = 0;  ///< of these, the blocks of scratch that stay in memory
   std::size_t block_bytes = 0;       ///< of scratch
@@ -22,10 +22,10 @@ struct MemoryWishes {
   std::optional<std::uint64_t> block_bytes;   ///< --block-bytes
 };
 
-/// Takes from the limit what the process itself needs (program, thread stacks, and the image library,
-/// which is loaded only when a model names an image, but then costs the same whatever the model), and
-/// gives the rest to the engine, as far as more memory makes it faster.
-/// Throws Error(kResource) for a limit below the floor of 256 MiB.
+/// Takes from the limit what the process itself needs (program, thread stacks, and the image
+/// library, which is loaded only when a model names an image, but then costs the same whatever the
+/// model), and gives the rest to the engine, as far as more memory makes it faster. Throws
+/// Error(kResource) for a limit below the floor of 256 MiB.
 MemoryPlan plan_memory(const MemoryWishes& wishes, std::size_t workers);
 
 }  // namespace atlasgauge

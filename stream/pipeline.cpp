@@ -147,7 +147,8 @@ MeshFacts stream_model(const Engine& engine, const std::string& path, Warnings& 
 
   EdgeResults edges = triangles.edges->group(frames, sinks);
   triangles.edges.reset();
-  const std::uint64_t boundary_vertices = group_stars(engine, mesh.faces, triangles.facts, facts.positions, sinks);
+  const std::uint64_t boundary_vertices =
+      group_stars(engine, mesh.faces, triangles.facts, facts.positions, sinks);
   mesh.faces.clear();
 
   stream_components(engine, edges, triangles.facts, sinks);

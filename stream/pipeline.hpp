@@ -31,14 +31,14 @@ struct MeshFacts {
 /// Finds the slots of a model from what its OBJ says.
 using ResolveTextures = std::function<TextureSlots(const ObjSummary&)>;
 
-/// The flow of DESIGN section 3: streams a model through all stages, each of which hands its groups to
-/// the sinks.
+/// The flow of DESIGN section 3: streams a model through all stages, each of which hands its groups
+/// to the sinks.
 ///
 ///   read -> weld -> UV shift -> triangles -> edges -> vertex stars
 ///        -> labels: components, boundary, charts -> seams -> percentiles
 ///
-/// Not there yet, and where they belong: tile bins and raster after charts (they need chart numbers),
-/// then s_f, whose cut-off needs occupancy; texel sampling after seams.
+/// Not there yet, and where they belong: tile bins and raster after charts (they need chart
+/// numbers), then s_f, whose cut-off needs occupancy; texel sampling after seams.
 MeshFacts stream_model(const Engine& engine, const std::string& path, Warnings& warnings,
                        const ResolveTextures& resolve_textures, GroupSinks& sinks);
 

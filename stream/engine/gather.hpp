@@ -33,9 +33,9 @@ struct Slices {
 
 /// Looks up table[index] for every index, in the order of the indices, whatever that order is:
 /// requests are distributed to slices of the table, answered slice by slice, and the answers
-/// distributed back to slices of the output. Two sequential passes, no random access to disk, and an
-/// index that occurs often costs nothing extra. Indices at or past the table's end give `absent`.
-/// Consumes `indices`, at most 2^32 of them.
+/// distributed back to slices of the output. Two sequential passes, no random access to disk, and
+/// an index that occurs often costs nothing extra. Indices at or past the table's end give
+/// `absent`. Consumes `indices`, at most 2^32 of them.
 template <class Value>
 Spill<Value> gather(const Engine& engine, Spill<std::uint32_t> indices, Spill<Value>& table,
                     const Value& absent) {

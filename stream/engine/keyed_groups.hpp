@@ -32,9 +32,9 @@ struct KeyRanges {
 
 /// Groups records by key, out of core: they are distributed to key ranges, then each bucket gets a
 /// counting sort in memory, all workers at once. A bucket too large for its worker's memory is
-/// distributed again by narrower ranges; a single key with more records than memory is handed over as
-/// a Spill. Distribution plus counting sort was the fastest of the methods measured, and unlike a
-/// merge its cost does not depend on how the keys interleave.
+/// distributed again by narrower ranges; a single key with more records than memory is handed over
+/// as a Spill. Distribution plus counting sort was the fastest of the methods measured, and unlike
+/// a merge its cost does not depend on how the keys interleave.
 ///
 /// `Record` has key(). Groups come in no particular order, their records neither.
 template <class Record>

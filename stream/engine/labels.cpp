@@ -64,8 +64,7 @@ Spill<Label> label_in_memory(const Engine& engine, Graph graph) {
   const Reservation memory = engine.budget.reserve(
       graph.nodes * (graph.names ? 8 : 4) + 3 * engine.block_bytes(), "labelling in memory");
   ParityForest forest(graph.nodes);
-  for_each_link(graph,
-                [&](const Link& link) { forest.unite(link.a(), link.b(), link.parity()); });
+  for_each_link(graph, [&](const Link& link) { forest.unite(link.a(), link.b(), link.parity()); });
   std::vector<std::uint32_t> names;
   if (graph.names) {
     names.resize(graph.nodes);
@@ -80,8 +79,8 @@ Spill<Label> label_in_memory(const Engine& engine, Graph graph) {
 }
 
 /// What a range remembers of a node until the labels of the roots are known: the root inside the
-/// range and the parity against it; for a root, whether it goes on to the next round, and whether its
-/// set is in conflict (its own parity is always 0).
+/// range and the parity against it; for a root, whether it goes on to the next round, and whether
+/// its set is in conflict (its own parity is always 0).
 class NodeState {
  public:
   NodeState() = default;
@@ -98,10 +97,10 @@ class NodeState {
   std::uint32_t bits_ = 0;
 };
 
-/// One round by ranges. Links go to the range of their smaller end; ranges are worked on in ascending
-/// order, so that when a range is reached all links into it from below have arrived, their lower end
-/// renumbered already. Then it is known which of its roots have links out of the range (are active),
-/// and they get the next dense numbers.
+/// One round by ranges. Links go to the range of their smaller end; ranges are worked on in
+/// ascending order, so that when a range is reached all links into it from below have arrived,
+/// their lower end renumbered already. Then it is known which of its roots have links out of the
+/// range (are active), and they get the next dense numbers.
 class RangeRound {
  public:
   /// Forest, dense numbers or final labels: bytes a node of one range.
@@ -178,9 +177,8 @@ class RangeRound {
     for_each_record(SpillReader<Link>(links_[range]), [&](const Link& link) {
       if (link.b() >= end) dense[forest.find(local(link.a())).node] = 0;
     });
-    for_each_record(SpillReader<Below>(below), [&](const Below& link) {
-      dense[forest.find(local(link.node)).node] = 0;
-    });
+    for_each_record(SpillReader<Below>(below),
+                    [&](const Below& link) { dense[forest.find(local(link.node)).node] = 0; });
     number_and_remember(forest, dense, names);
 
     for_each_record(SpillReader<Link>(links_[range], kConsumeLinks), [&](const Link& link) {
@@ -370,8 +368,7 @@ class Labelling {
 
   /// Half of the free memory for the nodes, the other half for the buckets of links.
   std::uint64_t nodes_per_range() const {
-    return std::max<std::uint64_t>(1024,
-                                   engine_.budget.free_bytes() / 2 / RangeRound::kNodeBytes);
+    return std::max<std::uint64_t>(1024, engine_.budget.free_bytes() / 2 / RangeRound::kNodeBytes);
   }
 
   const Engine& engine_;
@@ -391,7 +388,8 @@ Spill<Label> canonical(const Engine& engine, Spill<Label> labels) {
   SpillWriter<std::uint32_t> indices(engine.scratch);
   std::uint32_t node = 0;
   for_each_record(SpillReader<Label>(labels), [&](Label label) {
-    writers[slices.of(label.first())].push({label.first(), node++ << 1 | (label.parity() ? 1U : 0U)});
+    writers[slices.of(label.first())].push(
+        {label.first(), node++ << 1 | (label.parity() ? 1U : 0U)});
     indices.push(label.first());
   });
   SpillWriter<std::uint32_t> firsts(engine.scratch);

@@ -8,9 +8,9 @@
 
 namespace atlasgauge {
 
-/// An undirected link between two nodes, `a` < `b` < 2^30. A link of parity 1 says that the two ends
-/// are of opposite kind (two faces that run their common edge the same way). A link that is not
-/// manifold joins its ends without a word on their kind.
+/// An undirected link between two nodes, `a` < `b` < 2^30. A link of parity 1 says that the two
+/// ends are of opposite kind (two faces that run their common edge the same way). A link that is
+/// not manifold joins its ends without a word on their kind.
 class Link {
  public:
   Link() = default;
@@ -56,12 +56,12 @@ enum class LinkRule {
 /// Labels of the nodes [0, nodes), in node order. Consumes the links.
 ///
 /// While four bytes a node fit in memory this is one union-find. Beyond, nodes are cut into ranges
-/// that fit; each range unites what its own links join, and the roots that still have links to other
-/// ranges, renumbered densely, are a smaller problem of the same kind. Where links are so far-flung
-/// that a round removes less than a quarter, a star round comes first: by a coin per node, tails hook
-/// onto their smallest head neighbour (one quarter of the linked nodes disappears in expectation), so
-/// the number of rounds stays logarithmic for any graph. Roots keep the order of their smallest
-/// node, so the way back is a sequential zip.
+/// that fit; each range unites what its own links join, and the roots that still have links to
+/// other ranges, renumbered densely, are a smaller problem of the same kind. Where links are so
+/// far-flung that a round removes less than a quarter, a star round comes first: by a coin per
+/// node, tails hook onto their smallest head neighbour (one quarter of the linked nodes disappears
+/// in expectation), so the number of rounds stays logarithmic for any graph. Roots keep the order
+/// of their smallest node, so the way back is a sequential zip.
 Spill<Label> label_nodes(const Engine& engine, Spill<Link> links, std::uint64_t nodes,
                          LinkRule rule);
 

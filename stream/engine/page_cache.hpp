@@ -28,8 +28,8 @@ class PageTags {
   std::vector<std::uint32_t> tags_;
 };
 
-/// Pages of a table: a whole number of records that is also a whole number of I/O units. Pages end at
-/// block ends.
+/// Pages of a table: a whole number of records that is also a whole number of I/O units. Pages end
+/// at block ends.
 template <class T>
 struct PageLayout {
   static constexpr std::size_t kRecords = sizeof(T) >= 16 ? 512 : 2048;
@@ -38,8 +38,8 @@ struct PageLayout {
 
   explicit PageLayout(const Spill<T>& table)
       : records_per_block(static_cast<std::uint32_t>(table.records_per_block())),
-        pages_per_block(
-            static_cast<std::uint32_t>((records_per_block + kRecords - 1) / kRecords)) {}
+        pages_per_block(static_cast<std::uint32_t>((records_per_block + kRecords - 1) / kRecords)) {
+  }
 
   std::uint32_t page_of(std::uint32_t record) const {
     const std::uint32_t block = record / records_per_block;

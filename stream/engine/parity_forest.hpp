@@ -8,9 +8,9 @@
 
 namespace atlasgauge {
 
-/// Union-find over [0, size) in which every node knows its parity against its root. The root of a set
-/// is its smallest node. Four bytes a node: parent, parity to the parent, and, on roots, whether some
-/// cycle of the set has odd parity.
+/// Union-find over [0, size) in which every node knows its parity against its root. The root of a
+/// set is its smallest node. Four bytes a node: parent, parity to the parent, and, on roots,
+/// whether some cycle of the set has odd parity.
 class ParityForest {
  public:
   struct Root {

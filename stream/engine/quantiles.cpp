@@ -11,7 +11,9 @@ __extension__ typedef __int128 Int128;
 
 constexpr std::size_t kTargets = 2 * Quantiles::kPercents.size();
 
-std::uint64_t key_of(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }
+std::uint64_t key_of(double value) {
+  return std::bit_cast<std::uint64_t>(value + 0.0);
+}
 
 /// Weights as integers: in units of 2^-62 of the heaviest.
 class FixedWeight {
@@ -64,8 +66,8 @@ class Selection {
   Quantiles run(std::uint64_t smallest, std::uint64_t largest) {
     const std::size_t workers = engine_.workers.count();
     const std::uint64_t least = workers * (kTargets * 2 * sizeof(Bin) + engine_.block_bytes());
-    const std::uint64_t useful = workers * (kBins * sizeof(Bin) + engine_.block_bytes()) +
-                                 kSortable * sizeof(KeyWeight);
+    const std::uint64_t useful =
+        workers * (kBins * sizeof(Bin) + engine_.block_bytes()) + kSortable * sizeof(KeyWeight);
     const Reservation memory =
         engine_.budget.reserve_between(least, std::max(least, useful), "selecting percentiles");
     const std::uint64_t bytes = memory.bytes() - workers * engine_.block_bytes();
@@ -128,13 +130,13 @@ class Selection {
   }
 
   std::vector<Bin> histogram() {
-    std::vector<std::vector<Bin>> of_worker(engine_.workers.count(),
-                                            std::vector<Bin>(intervals_.back().first_bin +
-                                                             intervals_.back().bins));
-    visit_samples([&](std::size_t worker, const Interval& interval, std::uint64_t key,
-                      const Sample& sample) {
-      of_worker[worker][interval.bin_of(key)].merge({weight_.of(sample.weight), 1, key, key});
-    });
+    std::vector<std::vector<Bin>> of_worker(
+        engine_.workers.count(),
+        std::vector<Bin>(intervals_.back().first_bin + intervals_.back().bins));
+    visit_samples(
+        [&](std::size_t worker, const Interval& interval, std::uint64_t key, const Sample& sample) {
+          of_worker[worker][interval.bin_of(key)].merge({weight_.of(sample.weight), 1, key, key});
+        });
     for (std::size_t worker = 1; worker < of_worker.size(); ++worker) {
       for (std::size_t i = 0; i < of_worker[0].size(); ++i) {
         of_worker[0][i].merge(of_worker[worker][i]);
@@ -166,7 +168,8 @@ class Selection {
   }
 
   bool holds_target(Int128 below, Int128 up_to) const {
-    const auto target = std::lower_bound(sorted_targets_.begin(), sorted_targets_.end(), 100 * below);
+    const auto target =
+        std::lower_bound(sorted_targets_.begin(), sorted_targets_.end(), 100 * below);
     return target != sorted_targets_.end() && *target < 100 * up_to;
   }
 
@@ -198,10 +201,10 @@ class Selection {
 
   std::vector<KeyWeight> collect() {
     std::vector<std::vector<KeyWeight>> of_worker(engine_.workers.count());
-    visit_samples([&](std::size_t worker, const Interval&, std::uint64_t key,
-                      const Sample& sample) {
-      of_worker[worker].push_back({key, weight_.of(sample.weight)});
-    });
+    visit_samples(
+        [&](std::size_t worker, const Interval&, std::uint64_t key, const Sample& sample) {
+          of_worker[worker].push_back({key, weight_.of(sample.weight)});
+        });
     for (std::size_t worker = 1; worker < of_worker.size(); ++worker) {
       of_worker[0].insert(of_worker[0].end(), of_worker[worker].begin(), of_worker[worker].end());
     }

@@ -19,8 +19,8 @@ struct Quantiles {
 
   /// The smallest value whose cumulative weight from below reaches the percentage of the total.
   std::array<double, kPercents.size()> rising;
-  /// The largest value whose cumulative weight from above reaches it: where a falling function of the
-  /// value is measured, its percentiles are the function of these.
+  /// The largest value whose cumulative weight from above reaches it: where a falling function of
+  /// the value is measured, its percentiles are the function of these.
   std::array<double, kPercents.size()> falling;
 };
 
@@ -55,10 +55,10 @@ class SampleStore {
   };
 
   /// After all writers were flushed. Exact: weights are summed as integers in units of 2^-62 of the
-  /// heaviest, and the quantiles are elements of the data. Values are taken by the bits of the double,
-  /// which for numbers that are not negative have the same order: a histogram over their range, then
-  /// over the bins that hold a quantile, until what is left fits in memory and is sorted.
-  /// Consumes the samples.
+  /// heaviest, and the quantiles are elements of the data. Values are taken by the bits of the
+  /// double, which for numbers that are not negative have the same order: a histogram over their
+  /// range, then over the bins that hold a quantile, until what is left fits in memory and is
+  /// sorted. Consumes the samples.
   Quantiles select(const Engine& engine);
 
  private:

@@ -36,7 +36,9 @@ AlignedBytes::AlignedBytes(std::size_t bytes) {
   if (data_ == nullptr) throw std::bad_alloc();
 }
 
-void AlignedBytes::Free::operator()(std::byte* p) const { std::free(p); }
+void AlignedBytes::Free::operator()(std::byte* p) const {
+  std::free(p);
+}
 
 Scratch::Scratch(const Options& options, MemoryBudget& budget)
     : directory_(options.directory),
@@ -110,8 +112,8 @@ void Scratch::write(BlockId block, const std::byte* from, std::size_t bytes) {
   const std::size_t size = rounded_up(bytes);
   std::size_t done = 0;
   while (done < size) {
-    const ssize_t n = ::pwrite(file_, from + done, size - done,
-                               static_cast<off_t>(file_offset(block) + done));
+    const ssize_t n =
+        ::pwrite(file_, from + done, size - done, static_cast<off_t>(file_offset(block) + done));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) {
       throw Error(ErrorKind::kResource, directory_, 0,
@@ -129,8 +131,8 @@ void Scratch::read(BlockId block, std::size_t offset, std::byte* to, std::size_t
   const std::size_t size = rounded_up(bytes);
   std::size_t done = 0;
   while (done < bytes) {
-    const ssize_t n =
-        ::pread(file_, to + done, size - done, static_cast<off_t>(file_offset(block) + offset + done));
+    const ssize_t n = ::pread(file_, to + done, size - done,
+                              static_cast<off_t>(file_offset(block) + offset + done));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) {
       throw Error(ErrorKind::kResource, directory_, 0,

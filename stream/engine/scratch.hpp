@@ -67,8 +67,8 @@ class Scratch {
   /// Writes the first `bytes` of a block on disk; `from` is aligned, and may be read up to the next
   /// multiple of kAlignment.
   void write(BlockId block, const std::byte* from, std::size_t bytes);
-  /// Reads `bytes` from `offset` of a block on disk. `to` and `offset` are aligned, `to` has room up
-  /// to the next multiple of kAlignment.
+  /// Reads `bytes` from `offset` of a block on disk. `to` and `offset` are aligned, `to` has room
+  /// up to the next multiple of kAlignment.
   void read(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const;
 
   std::uint64_t written_bytes() const;

@@ -67,8 +67,9 @@ Spill<T> sort_spill(const Engine& engine, Spill<T> input, Less less) {
     std::vector<Spill<T>> merged;
     for (std::size_t begin = 0; begin < runs.size(); begin += fan_in) {
       const std::size_t end = std::min(runs.size(), begin + fan_in);
-      std::vector<Spill<T>> some(std::make_move_iterator(runs.begin() + static_cast<std::ptrdiff_t>(begin)),
-                                 std::make_move_iterator(runs.begin() + static_cast<std::ptrdiff_t>(end)));
+      std::vector<Spill<T>> some(
+          std::make_move_iterator(runs.begin() + static_cast<std::ptrdiff_t>(begin)),
+          std::make_move_iterator(runs.begin() + static_cast<std::ptrdiff_t>(end)));
       merged.push_back(detail::merge_runs(engine.scratch, std::move(some), less));
     }
     runs = std::move(merged);

@@ -61,9 +61,7 @@ class Spill {
     return {reinterpret_cast<const T*>(bytes), count};
   }
 
-  void free_block(std::size_t index) {
-    scratch_->free(std::exchange(blocks_[index], kFreed));
-  }
+  void free_block(std::size_t index) { scratch_->free(std::exchange(blocks_[index], kFreed)); }
 
   /// Takes over a block that holds its full number of records, or any number if it is the last.
   void adopt(Scratch::BlockId block, std::size_t records) {
@@ -132,7 +130,8 @@ class SpillWriter {
   }
 
   void close_block() {
-    if (scratch_->resident(block_) == nullptr) scratch_->write(block_, cursor_, in_block_ * sizeof(T));
+    if (scratch_->resident(block_) == nullptr)
+      scratch_->write(block_, cursor_, in_block_ * sizeof(T));
     spill_.adopt(block_, in_block_);
     in_block_ = 0;
   }
@@ -145,8 +144,8 @@ class SpillWriter {
   std::size_t in_block_ = 0;
 };
 
-/// Reads a Spill from front to back. Uses at most one block of memory. A consuming reader frees each
-/// block when it has passed it.
+/// Reads a Spill from front to back. Uses at most one block of memory. A consuming reader frees
+/// each block when it has passed it.
 template <class T>
 class SpillReader {
  public:

@@ -23,8 +23,13 @@ double wall_seconds() {
 }
 
 StageCost reading(std::string name, const Scratch& scratch) {
-  return {std::move(name),         wall_seconds(),          cpu_seconds(),
-          scratch.spilled_bytes(), scratch.written_bytes(), scratch.read_bytes(), 0};
+  return {std::move(name),
+          wall_seconds(),
+          cpu_seconds(),
+          scratch.spilled_bytes(),
+          scratch.written_bytes(),
+          scratch.read_bytes(),
+          0};
 }
 
 }  // namespace

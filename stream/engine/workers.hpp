@@ -10,10 +10,11 @@ namespace atlasgauge {
 
 /// The whole parallel vocabulary: a fixed number of workers, this thread being one of them.
 ///
-/// A pipeline has three steps per item. `produce` and `commit` run one at a time and in the order of
-/// the items, so they may read and write files and shared state without locks; `transform` runs on
-/// all workers at once and owns only what belongs to its worker. At most one item a worker is under
-/// way, so memory is bounded by construction. An exception of any step stops all and is thrown here.
+/// A pipeline has three steps per item. `produce` and `commit` run one at a time and in the order
+/// of the items, so they may read and write files and shared state without locks; `transform` runs
+/// on all workers at once and owns only what belongs to its worker. At most one item a worker is
+/// under way, so memory is bounded by construction. An exception of any step stops all and is
+/// thrown here.
 class Workers {
  public:
   explicit Workers(std::size_t count)
@@ -23,9 +24,9 @@ class Workers {
   std::uint64_t items_done(std::size_t worker) const { return items_done_[worker]; }
 
   struct Pipeline {
-    std::function<bool(std::size_t worker)> produce;   ///< false: no more items
+    std::function<bool(std::size_t worker)> produce;  ///< false: no more items
     std::function<void(std::size_t worker)> transform;
-    std::function<void(std::size_t worker)> commit;    ///< may be empty
+    std::function<void(std::size_t worker)> commit;  ///< may be empty
   };
   void run(const Pipeline& pipeline) const;
 

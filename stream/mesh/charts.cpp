@@ -28,8 +28,8 @@ struct ChartFace {
 };
 static_assert(sizeof(ChartFace) == 16);
 
-/// Adds up one chart. Areas are summed in fixed point, in units of 2^-62 of the largest face, so that
-/// the total does not depend on the order of the faces; their signs are taken before rounding.
+/// Adds up one chart. Areas are summed in fixed point, in units of 2^-62 of the largest face, so
+/// that the total does not depend on the order of the faces; their signs are taken before rounding.
 class ChartSum {
  public:
   ChartSum(std::uint32_t chart, double largest_area_uv)
@@ -47,7 +47,8 @@ class ChartSum {
 
   Chart finish() const {
     const bool null = as_is_.positive + as_is_.negative == 0;
-    return {FaceId{chart_}, faces_, null, !conflict_, (conflict_ ? as_is_ : coherent_).folds(absolute_)};
+    return {FaceId{chart_}, faces_, null, !conflict_,
+            (conflict_ ? as_is_ : coherent_).folds(absolute_)};
   }
 
  private:

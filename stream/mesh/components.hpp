@@ -9,8 +9,8 @@
 
 namespace atlasgauge {
 
-/// Labels of the faces by the links of one level: over all of its edges, and over its manifold edges
-/// with parity. Where no edge has more than two faces the two are one.
+/// Labels of the faces by the links of one level: over all of its edges, and over its manifold
+/// edges with parity. Where no edge has more than two faces the two are one.
 class FaceLabels {
  public:
   FaceLabels(const Engine& engine, Spill<Link> links, std::uint64_t faces, bool manifold);
@@ -28,8 +28,8 @@ class FaceLabels {
 void group_components(const Engine& engine, FaceLabels& labels, Spill<FaceFacts>& facts,
                       GroupSinks& sinks);
 
-/// Connected components of the boundary edges over shared vertices. `boundary_vertices` is the number
-/// of vertices on boundary edges.
+/// Connected components of the boundary edges over shared vertices. `boundary_vertices` is the
+/// number of vertices on boundary edges.
 std::uint64_t count_boundary_components(const Engine& engine, Spill<Link> boundary_links,
                                         std::uint64_t vertices, std::uint64_t boundary_vertices);
 

@@ -159,8 +159,7 @@ class UvEdges {
 };
 
 SeamCandidate seam_between(const HalfEdge& a, const HalfEdge& b) {
-  const bool sampled =
-      a.has_uv_triangle() && b.has_uv_triangle() && a.sampled() && b.sampled();
+  const bool sampled = a.has_uv_triangle() && b.has_uv_triangle() && a.sampled() && b.sampled();
   return {a.face, b.face, a.length_3d, sampled ? 1U : 0U, 0};
 }
 
@@ -206,7 +205,9 @@ class EdgeTableOf : public EdgeTable {
     }
     KeyedGroups<Record> groups(
         engine_,
-        [&](std::size_t worker, std::span<Record> star) { split_star(star, frames, outputs[worker]); },
+        [&](std::size_t worker, std::span<Record> star) {
+          split_star(star, frames, outputs[worker]);
+        },
         [&](std::uint32_t, Spill<Record> star) {
           split_hot_star(std::move(star), frames, outputs[0]);
         });
@@ -232,8 +233,8 @@ class EdgeTableOf : public EdgeTable {
   static std::uint32_t bits_of_face(const Triangle& triangle, const SlotFrames& frames) {
     const std::uint32_t slot =
         triangle.slot == kNone<SlotId> ? HalfEdge::kSlotMask : raw(triangle.slot);
-    const bool sampled = triangle.has_uv_triangle && !triangle.uv_far &&
-                         frames.of(triangle.slot).readable;
+    const bool sampled =
+        triangle.has_uv_triangle && !triangle.uv_far && frames.of(triangle.slot).readable;
     return slot | (triangle.at_welded_level() ? 0 : HalfEdge::kRawOnly) |
            (triangle.has_uv_triangle ? HalfEdge::kUvTriangle : 0) |
            (sampled ? 0 : HalfEdge::kUnsampled);
@@ -285,8 +286,8 @@ class EdgeTableOf : public EdgeTable {
     raw_edges.close();
 
     if (kWelded<Record>) {
-      const auto whole = std::partition(edge.begin(), edge.end(),
-                                        [](const Record& h) { return !h.raw_only(); });
+      const auto whole =
+          std::partition(edge.begin(), edge.end(), [](const Record& h) { return !h.raw_only(); });
       edge = edge.first(static_cast<std::size_t>(whole - edge.begin()));
     }
     if (edge.size() == 2 && !same_uv_edge(edge[0], edge[1])) {

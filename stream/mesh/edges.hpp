@@ -14,12 +14,12 @@ namespace atlasgauge {
 
 /// What the edges tell later stages.
 struct EdgeResults {
-  Spill<Link> raw_links;           ///< faces that share a raw edge
-  Spill<Link> uv_links;            ///< faces that share a uv edge
-  Spill<Link> boundary_links;      ///< the two vertices of every raw boundary edge
+  Spill<Link> raw_links;       ///< faces that share a raw edge
+  Spill<Link> uv_links;        ///< faces that share a uv edge
+  Spill<Link> boundary_links;  ///< the two vertices of every raw boundary edge
   Spill<SeamCandidate> seams;
-  bool raw_manifold = true;        ///< no raw edge has more than two faces
-  bool uv_manifold = true;         ///< no uv edge has more than two faces
+  bool raw_manifold = true;  ///< no raw edge has more than two faces
+  bool uv_manifold = true;   ///< no uv edge has more than two faces
 };
 
 /// The edge table. Every face emits three half-edges, distributed by their lower welded vertex; one

@@ -25,7 +25,9 @@ class CornerSource {
   virtual void join(std::size_t worker, std::span<JoinedFace> faces) = 0;
 };
 
-TexCoord usable(const TexCoord& t) { return is_finite(t) ? t : kNoTexCoord; }
+TexCoord usable(const TexCoord& t) {
+  return is_finite(t) ? t : kNoTexCoord;
+}
 
 /// Tables in memory, shared by all workers.
 class LoadedTables : public CornerSource {
@@ -262,7 +264,8 @@ void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld, std::uint64_
   pipeline.transform = [&](std::size_t worker) {
     Batch& batch = batches[worker];
     batch.joined.resize(batch.records.size());
-    for (std::size_t i = 0; i < batch.records.size(); ++i) batch.joined[i].record = batch.records[i];
+    for (std::size_t i = 0; i < batch.records.size(); ++i)
+      batch.joined[i].record = batch.records[i];
     corners->join(worker, batch.joined);
     visitor.transform(worker, batch.first_face, batch.joined);
   };

@@ -34,7 +34,8 @@ struct FaceVisitor {
 ///   1. tables that fit are read into memory;
 ///   2. else every worker looks up through page caches: scans are written region by region, and
 ///      hardly miss;
-///   3. where the faces' own index sequence, run through the tags of such a cache beforehand, misses
+///   3. where the faces' own index sequence, run through the tags of such a cache beforehand,
+///   misses
 ///      too often, the corners are gathered by two sequential distributions instead.
 void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld, std::uint64_t memory_bytes,
                  StageLog::Stage& stage, const FaceVisitor& visitor);

@@ -121,8 +121,8 @@ MeshStore read_mesh(const Engine& engine, const std::string& path, Warnings& war
   const std::size_t workers = engine.workers.count();
   const std::uint64_t writers_bytes = 4 * engine.block_bytes();
   const std::uint64_t free_bytes = engine.budget.free_bytes();
-  const std::size_t block_bytes = choose_block_bytes(
-      free_bytes - std::min(free_bytes, writers_bytes), workers);
+  const std::size_t block_bytes =
+      choose_block_bytes(free_bytes - std::min(free_bytes, writers_bytes), workers);
   const Reservation memory = engine.budget.reserve(
       writers_bytes + workers * ObjReader::memory_bytes(block_bytes), "reading the model");
 

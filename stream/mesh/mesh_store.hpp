@@ -32,8 +32,8 @@ struct MeshStore {
   bool uvs_in_unit_square = true;  ///< every finite texture coordinate lies in [0,1]
 };
 
-/// Parses an OBJ on all workers into scratch. Polygons that name no vertex of the file are gone from
-/// the faces. `summary` gets what the file says besides geometry.
+/// Parses an OBJ on all workers into scratch. Polygons that name no vertex of the file are gone
+/// from the faces. `summary` gets what the file says besides geometry.
 MeshStore read_mesh(const Engine& engine, const std::string& path, Warnings& warnings,
                     ObjSummary& summary);
 

@@ -32,8 +32,8 @@ class FaceFacts {
   double bits_ = 0;
 };
 
-/// One face's side of a welded edge (lo, hi), lo <= hi. Its two UVs are those of the corners at lo and
-/// at hi, so equal bits mean the same uv edge.
+/// One face's side of a welded edge (lo, hi), lo <= hi. Its two UVs are those of the corners at lo
+/// and at hi, so equal bits mean the same uv edge.
 struct HalfEdge {
   std::uint32_t lo, hi;
   FaceId face;
@@ -41,11 +41,11 @@ struct HalfEdge {
   TexCoord uv_lo, uv_hi;
   double length_3d;
 
-  static constexpr std::uint32_t kForward = 1U << 31;        ///< the face runs it from lo to hi
-  static constexpr std::uint32_t kRawOnly = 1U << 30;        ///< of a welded-degenerate face
-  static constexpr std::uint32_t kUvTriangle = 1U << 29;     ///< its face has a UV triangle
-  static constexpr std::uint32_t kUnsampled = 1U << 28;      ///< its face's colours cannot be read
-  static constexpr std::uint32_t kSlotMask = kUnsampled - 1; ///< the slot; all ones for none
+  static constexpr std::uint32_t kForward = 1U << 31;         ///< the face runs it from lo to hi
+  static constexpr std::uint32_t kRawOnly = 1U << 30;         ///< of a welded-degenerate face
+  static constexpr std::uint32_t kUvTriangle = 1U << 29;      ///< its face has a UV triangle
+  static constexpr std::uint32_t kUnsampled = 1U << 28;       ///< its face's colours cannot be read
+  static constexpr std::uint32_t kSlotMask = kUnsampled - 1;  ///< the slot; all ones for none
 
   std::uint32_t key() const { return lo; }
   bool forward() const { return (bits & kForward) != 0; }

@@ -23,7 +23,9 @@ struct StarCorner {
 std::pair<std::uint32_t, std::uint32_t> pair_of(const StarCorner& corner) {
   return std::minmax(corner.a, corner.b);
 }
-bool owns_face(const StarCorner& corner) { return corner.v < corner.a && corner.v < corner.b; }
+bool owns_face(const StarCorner& corner) {
+  return corner.v < corner.a && corner.v < corner.b;
+}
 
 /// Counts the edges at a vertex from its neighbours, one entry a face and neighbour, in order.
 class NeighbourCount {
@@ -117,8 +119,8 @@ class StarCounter {
   NeighbourCount neighbours_;
 };
 
-/// A star with more corners than memory: its neighbours are the nodes and its corners the links of a
-/// graph whose components are the fans.
+/// A star with more corners than memory: its neighbours are the nodes and its corners the links of
+/// a graph whose components are the fans.
 class HotStar {
  public:
   HotStar(const Engine& engine, std::uint64_t vertices) : engine_(engine), vertices_(vertices) {}
@@ -182,14 +184,13 @@ class HotStar {
   std::uint64_t vertices_;
 };
 
-std::vector<Spill<StarCorner>> distribute_corners(const Engine& engine,
-                                                  Spill<FaceRecord>& faces,
+std::vector<Spill<StarCorner>> distribute_corners(const Engine& engine, Spill<FaceRecord>& faces,
                                                   Spill<FaceFacts>& facts, std::uint64_t vertices,
                                                   KeyRanges& ranges) {
   const std::uint64_t free_bytes = engine.budget.free_bytes();
   ranges = KeyedGroups<StarCorner>::plan(engine, 3 * faces.size(), 0,
-                                         static_cast<std::uint32_t>(vertices),
-                                         free_bytes / 8 * 7, free_bytes / 2);
+                                         static_cast<std::uint32_t>(vertices), free_bytes / 8 * 7,
+                                         free_bytes / 2);
   const Reservation memory = engine.budget.reserve(
       Partition<StarCorner>::memory_bytes(ranges.bucket_count(), 1, engine.block_bytes()) +
           2 * engine.block_bytes(),
@@ -237,7 +238,8 @@ std::uint64_t group_stars(const Engine& engine, Spill<FaceRecord>& faces, Spill<
                           std::uint64_t vertices, GroupSinks& sinks) {
   StageLog::Stage stage(engine.log, "vertex stars", faces.size());
   KeyRanges ranges;
-  std::vector<Spill<StarCorner>> buckets = distribute_corners(engine, faces, facts, vertices, ranges);
+  std::vector<Spill<StarCorner>> buckets =
+      distribute_corners(engine, faces, facts, vertices, ranges);
   std::vector<StarOutput> outputs;
   for (std::size_t i = 0; i < engine.workers.count(); ++i) outputs.emplace_back(sinks.of_worker(i));
   std::vector<StarCounter> counters(engine.workers.count());

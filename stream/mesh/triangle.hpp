@@ -18,10 +18,14 @@ inline constexpr TexCoord kNoTexCoord{std::numeric_limits<float>::quiet_NaN(),
 inline bool is_finite(const Position& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
-inline bool is_finite(const TexCoord& t) { return std::isfinite(t.u) && std::isfinite(t.v); }
+inline bool is_finite(const TexCoord& t) {
+  return std::isfinite(t.u) && std::isfinite(t.v);
+}
 
 /// Bits that order and identify texture coordinates; readers store -0 as +0.
-inline std::uint64_t bits_of(const TexCoord& t) { return std::bit_cast<std::uint64_t>(t); }
+inline std::uint64_t bits_of(const TexCoord& t) {
+  return std::bit_cast<std::uint64_t>(t);
+}
 
 /// A point in the texel grid of a slot, v up.
 struct Texel {
@@ -32,8 +36,8 @@ struct Texel {
 struct SlotFrame {
   bool has_size = false;
   bool readable = false;
-  double width = 0, height = 0;    ///< texels
-  double shift_u = 0, shift_v = 0; ///< whole-texture integer shift (SPEC section 1)
+  double width = 0, height = 0;     ///< texels
+  double shift_u = 0, shift_v = 0;  ///< whole-texture integer shift (SPEC section 1)
 
   Texel texel(const TexCoord& t) const {
     return {(static_cast<double>(t.u) + shift_u) * width,
@@ -46,7 +50,9 @@ class SlotFrames {
  public:
   SlotFrames() = default;
   explicit SlotFrames(std::vector<SlotFrame> frames) : frames_(std::move(frames)) {}
-  const SlotFrame& of(SlotId slot) const { return slot == kNone<SlotId> ? none_ : frames_[raw(slot)]; }
+  const SlotFrame& of(SlotId slot) const {
+    return slot == kNone<SlotId> ? none_ : frames_[raw(slot)];
+  }
   std::vector<SlotFrame>& all() { return frames_; }
 
  private:

@@ -120,8 +120,7 @@ void shift_frames(const Engine& engine, MeshStore& mesh, Weld& weld, const Textu
 }  // namespace
 
 SlotId slot_of(const TextureSlots& slots, MaterialId material) {
-  return material == kNone<MaterialId> ? slots.without_material
-                                       : slots.of_material[raw(material)];
+  return material == kNone<MaterialId> ? slots.without_material : slots.of_material[raw(material)];
 }
 
 SlotFrames frame_slots(const Engine& engine, MeshStore& mesh, Weld& weld,

@@ -17,9 +17,9 @@ namespace atlasgauge {
 /// The slot of a face, by its material.
 SlotId slot_of(const TextureSlots& slots, MaterialId material);
 
-/// Sizes and whole-texture UV shifts of all slots. The shift of a slot needs the UVs of all its faces,
-/// so it costs a pass of its own, unless all UVs of the file lie in the unit square: then there is
-/// none.
+/// Sizes and whole-texture UV shifts of all slots. The shift of a slot needs the UVs of all its
+/// faces, so it costs a pass of its own, unless all UVs of the file lie in the unit square: then
+/// there is none.
 SlotFrames frame_slots(const Engine& engine, MeshStore& mesh, Weld& weld,
                        const TextureSlots& slots);
 

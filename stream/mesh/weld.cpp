@@ -38,9 +38,13 @@ std::uint64_t hash_of(const Position& p) {
   return mix(h ^ std::bit_cast<std::uint64_t>(p.z));
 }
 
-bool is_nan(const Position& p) { return std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z); }
+bool is_nan(const Position& p) {
+  return std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z);
+}
 
-bool equal(const Position& a, const Position& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+bool equal(const Position& a, const Position& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
 
 /// Open addressing with linear probing; at most half full.
 class DistinctPositions {
@@ -50,8 +54,8 @@ class DistinctPositions {
   explicit DistinctPositions(std::uint64_t capacity)
       : capacity_(capacity), slots_(std::bit_ceil(2 * capacity), kEmpty) {}
 
-  /// The vertex first seen at this position: `vertex` itself, which is added while there is room, or
-  /// kNone when it is new and there is none.
+  /// The vertex first seen at this position: `vertex` itself, which is added while there is room,
+  /// or kNone when it is new and there is none.
   VertexId first_at(const PlacedVertex& vertex) {
     std::size_t at = hash_of(vertex.p) & (slots_.size() - 1);
     while (slots_[at].v != kNone<VertexId> && !equal(slots_[at].p, vertex.p)) {
@@ -135,9 +139,9 @@ class Welding {
     return partition.finish();
   }
 
-  /// Streams a bucket through a table of `capacity` distinct positions. What is new when the table is
-  /// full is handed to `overflow`. Buckets keep the order of the vertices, so the first at a position
-  /// is the smallest.
+  /// Streams a bucket through a table of `capacity` distinct positions. What is new when the table
+  /// is full is handed to `overflow`. Buckets keep the order of the vertices, so the first at a
+  /// position is the smallest.
   template <class Overflow>
   void match(Spill<PlacedVertex> bucket, std::uint64_t capacity, Overflow overflow) {
     DistinctPositions distinct(capacity);
@@ -188,9 +192,8 @@ class Welding {
 Spill<VertexId> welded_table(const Engine& engine, Spill<Coincidence> coincidences,
                              std::uint64_t vertices) {
   Spill<Coincidence> sorted =
-      sort_spill(engine, std::move(coincidences), [](const Coincidence& a, const Coincidence& b) {
-        return raw(a.v) < raw(b.v);
-      });
+      sort_spill(engine, std::move(coincidences),
+                 [](const Coincidence& a, const Coincidence& b) { return raw(a.v) < raw(b.v); });
   SpillReader<Coincidence> reader(sorted, SpillReader<Coincidence>::Mode::kConsume);
   Coincidence next{kNone<VertexId>, kNone<VertexId>};
   bool more = reader.read(next);

@@ -19,9 +19,10 @@ struct Weld {
   bool found_any() const { return duplicates > 0; }
 };
 
-/// Finds coincident vertices: positions are distributed by hash, and each bucket goes through a hash
-/// table of its distinct positions. A bucket with more distinct positions than memory is distributed
-/// again by other bits of the hash; one with few distinct positions streams through, however long.
+/// Finds coincident vertices: positions are distributed by hash, and each bucket goes through a
+/// hash table of its distinct positions. A bucket with more distinct positions than memory is
+/// distributed again by other bits of the hash; one with few distinct positions streams through,
+/// however long.
 Weld weld_vertices(const Engine& engine, MeshStore& mesh);
 
 }  // namespace atlasgauge

@@ -26,8 +26,8 @@ ProgramResult atlasgauge(const std::vector<std::string>& arguments,
 }
 
 std::size_t files_in(const std::filesystem::path& folder) {
-  return static_cast<std::size_t>(
-      std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder),
+                                                std::filesystem::directory_iterator()));
 }
 
 class CommandTest : public testing::Test {
@@ -123,8 +123,8 @@ TEST_F(CommandTest, ScratchLeavesNothing) {
   options.image_format = ImageFormat::kNone;
   write_site(Site(options), dir_.path().string());
   std::filesystem::create_directory(file("tmp"));
-  const ProgramResult run = atlasgauge(
-      {file("site.obj"), "--engine-memory", "3M", "--tmp-dir", file("tmp"), "-t", "1024x1024", "-v"});
+  const ProgramResult run = atlasgauge({file("site.obj"), "--engine-memory", "3M", "--tmp-dir",
+                                        file("tmp"), "-t", "1024x1024", "-v"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(files_in(file("tmp")), 0U);
   EXPECT_NE(run.err.find("peak resident"), std::string::npos);

@@ -86,7 +86,9 @@ void compare_seeds(std::uint64_t begin, std::uint64_t end) {
   }
 }
 
-TEST(OracleTest, RandomModelsAgreeOnEveryKey) { compare_seeds(0, 600); }
+TEST(OracleTest, RandomModelsAgreeOnEveryKey) {
+  compare_seeds(0, 600);
+}
 
 }  // namespace
 }  // namespace atlasgauge

@@ -1,5 +1,5 @@
-// Reports of real models, made by other means. They are not in the repository: the folder `shared` lies
-// beside the checkout where they are at hand, else this test says that it is skipped.
+// Reports of real models, made by other means. They are not in the repository: the folder `shared`
+// lies beside the checkout where they are at hand, else this test says that it is skipped.
 
 #include <gtest/gtest.h>
 
@@ -48,9 +48,9 @@ bool is_pending(const std::string& line) {
 }
 
 std::string differences(const std::string& report, const std::filesystem::path& reference) {
-  const ProgramResult compare =
-      run_program("/usr/bin/python3", {(shared_folder() / "reference/compare.py").string(), report,
-                                       reference.string()});
+  const ProgramResult compare = run_program(
+      "/usr/bin/python3",
+      {(shared_folder() / "reference/compare.py").string(), report, reference.string()});
   std::istringstream lines(compare.out);
   std::string left;
   for (std::string line; std::getline(lines, line);) {

@@ -34,7 +34,9 @@ PipelineConfig config_for(const SiteOptions& site) {
   return config;
 }
 
-std::string text_of(const PipelineResult& result) { return result.report.dump(); }
+std::string text_of(const PipelineResult& result) {
+  return result.report.dump();
+}
 
 struct Knobs {
   std::uint64_t engine_bytes, resident_bytes;

@@ -13,8 +13,8 @@ struct ProgramResult {
   long peak_resident_kib = 0;
 };
 
-/// Runs a program to its end; `arguments` without its name, `environment` as NAME=VALUE on top of the
-/// present one.
+/// Runs a program to its end; `arguments` without its name, `environment` as NAME=VALUE on top of
+/// the present one.
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment = {});
 

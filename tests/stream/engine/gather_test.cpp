@@ -51,15 +51,21 @@ class GatherTest : public testing::TestWithParam<std::uint64_t> {
 // Half of the budget is for a slice: 4096 squares in the first case.
 INSTANTIATE_TEST_SUITE_P(Budgets, GatherTest, testing::Values(kLeast, 3 * kLeast, 8 << 20));
 
-TEST_P(GatherTest, AnyOrder) { expect_squares(engine_, random_indices(30000, 20000), 20000); }
+TEST_P(GatherTest, AnyOrder) {
+  expect_squares(engine_, random_indices(30000, 20000), 20000);
+}
 
-TEST_P(GatherTest, FewIndicesIntoALargeTable) { expect_squares(engine_, {19999, 0, 7}, 20000); }
+TEST_P(GatherTest, FewIndicesIntoALargeTable) {
+  expect_squares(engine_, {19999, 0, 7}, 20000);
+}
 
 TEST_P(GatherTest, ManyIndicesIntoASmallTable) {
   expect_squares(engine_, random_indices(30000, 3), 3);
 }
 
-TEST_P(GatherTest, OneIndexRepeated) { expect_squares(engine_, Indices(30000, 11111), 20000); }
+TEST_P(GatherTest, OneIndexRepeated) {
+  expect_squares(engine_, Indices(30000, 11111), 20000);
+}
 
 TEST_P(GatherTest, AbsentIndices) {
   Indices indices = random_indices(30000, 40000);
@@ -69,9 +75,13 @@ TEST_P(GatherTest, AbsentIndices) {
   expect_squares(engine_, indices, 20000);
 }
 
-TEST_P(GatherTest, NothingAsked) { expect_squares(engine_, {}, 20000); }
+TEST_P(GatherTest, NothingAsked) {
+  expect_squares(engine_, {}, 20000);
+}
 
-TEST_P(GatherTest, EmptyTable) { expect_squares(engine_, random_indices(100, 5), 0); }
+TEST_P(GatherTest, EmptyTable) {
+  expect_squares(engine_, random_indices(100, 5), 0);
+}
 
 TEST_P(GatherTest, TableOfJustAboutASlice) {
   for (const std::uint64_t size : {4095, 4096, 4097}) {

@@ -37,8 +37,8 @@ struct Groups {
 
 Groups group(TestEngine& engine, const std::vector<Pebble>& pebbles, std::uint32_t key_end) {
   const std::uint64_t free_bytes = engine.budget.free_bytes();
-  const KeyRanges ranges = KeyedGroups<Pebble>::plan(engine, pebbles.size(), 0, key_end,
-                                                     free_bytes, free_bytes / 2);
+  const KeyRanges ranges =
+      KeyedGroups<Pebble>::plan(engine, pebbles.size(), 0, key_end, free_bytes, free_bytes / 2);
   std::vector<Spill<Pebble>> buckets;
   {
     Partition<Pebble> partition(engine.scratch, ranges.bucket_count());
@@ -104,9 +104,13 @@ INSTANTIATE_TEST_SUITE_P(BudgetsAndWorkers, KeyedGroupsTest,
                          testing::Combine(testing::Values(8, 12, 40, 4096),
                                           testing::Values(1, 2, 3)));
 
-TEST_P(KeyedGroupsTest, NothingHasNoGroups) { EXPECT_TRUE(grouped({}, 10).by_key.empty()); }
+TEST_P(KeyedGroupsTest, NothingHasNoGroups) {
+  EXPECT_TRUE(grouped({}, 10).by_key.empty());
+}
 
-TEST_P(KeyedGroupsTest, OnlyKey) { grouped(pebbles_of(5, [](std::uint32_t) { return 0; }), 1); }
+TEST_P(KeyedGroupsTest, OnlyKey) {
+  grouped(pebbles_of(5, [](std::uint32_t) { return 0; }), 1);
+}
 
 TEST_P(KeyedGroupsTest, EveryKeyOnce) {
   grouped(pebbles_of(20000, [](std::uint32_t i) { return i; }), 20000);
@@ -169,7 +173,9 @@ TEST(KeyRangesTest, BucketsCoverTheKeysWithoutOverlap) {
   EXPECT_EQ(ranges.keys_of(4), std::pair(30U, 31U));
 }
 
-TEST(KeyRangesTest, NoKeysHaveOneBucket) { EXPECT_EQ((KeyRanges{0, 0, 1}).bucket_count(), 1U); }
+TEST(KeyRangesTest, NoKeysHaveOneBucket) {
+  EXPECT_EQ((KeyRanges{0, 0, 1}).bucket_count(), 1U);
+}
 
 TEST(KeyRangesTest, PlanKeepsToTheDistributionMemory) {
   TestEngine engine({.workers = 1});

@@ -121,8 +121,9 @@ TEST_P(WorkersTest, ErrorOfCommitStopsAndIsThrown) {
 }
 
 TEST_P(WorkersTest, WorksAgainAfterAnError) {
-  EXPECT_THROW(workers_.for_each(3, [](std::size_t, std::size_t) { throw std::runtime_error("x"); }),
-               std::runtime_error);
+  EXPECT_THROW(
+      workers_.for_each(3, [](std::size_t, std::size_t) { throw std::runtime_error("x"); }),
+      std::runtime_error);
   std::atomic<int> done{0};
   workers_.for_each(10, [&](std::size_t, std::size_t) { ++done; });
   EXPECT_EQ(done, 10);
@@ -158,7 +159,9 @@ TEST_P(WorkersTest, AllWorkersAreBusyAtOnce) {
   for (std::size_t i = 0; i < GetParam(); ++i) EXPECT_EQ(workers_.items_done(i), 1U);
 }
 
-TEST(WorkersCountTest, ThereIsAlwaysOne) { EXPECT_EQ(Workers(0).count(), 1U); }
+TEST(WorkersCountTest, ThereIsAlwaysOne) {
+  EXPECT_EQ(Workers(0).count(), 1U);
+}
 
 }  // namespace
 }  // namespace atlasgauge

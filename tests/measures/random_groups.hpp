@@ -1,0 +1,131 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "measures/measure.hpp"
+#include "stream/groups.hpp"
+
+namespace atlasgauge {
+
+/// Some groups of every kind.
+struct Groups {
+  std::vector<Triangle> triangles;
+  std::vector<RawEdge> raw_edges;
+  std::vector<UvEdge> uv_edges;
+  std::vector<SeamEdge> seam_edges;
+  std::vector<VertexStar> stars;
+  std::vector<Component> components;
+  std::vector<Chart> charts;
+};
+
+/// Hands groups over as a worker does: triangles to sample() too, if the measure wants them.
+inline void feed(AnyMeasure& measure, const Groups& groups) {
+  measure.accept(std::span(groups.triangles));
+  measure.accept(std::span(groups.raw_edges));
+  measure.accept(std::span(groups.uv_edges));
+  measure.accept(std::span(groups.seam_edges));
+  measure.accept(std::span(groups.stars));
+  measure.accept(std::span(groups.components));
+  measure.accept(std::span(groups.charts));
+  std::vector<Sample> samples;
+  if (measure.sampled()) measure.sample(0, groups.triangles, samples);
+}
+
+/// A whole face with these corners, all its texels within the texture.
+inline Triangle whole_triangle(const Position (&p)[3], const Texel (&texel)[3]) {
+  Triangle triangle{};
+  triangle.slot = SlotId{0};
+  triangle.kind = FaceKind::kWhole;
+  triangle.slot_has_size = true;
+  triangle.has_uv_triangle = true;
+  for (int k = 0; k < 3; ++k) {
+    triangle.p[k] = p[k];
+    triangle.texel[k] = texel[k];
+    triangle.t[k] = {static_cast<float>(texel[k].x), static_cast<float>(texel[k].y)};
+  }
+  triangle.area_3d = triangle_area(p[0], p[1], p[2]);
+  triangle.area_uv = signed_area(texel[0], texel[1], texel[2]);
+  return triangle;
+}
+
+/// Groups with numbers of very different size, and some of every special kind.
+class RandomGroups {
+ public:
+  explicit RandomGroups(unsigned seed) : random_(seed) {}
+
+  Groups some(std::size_t of_each) {
+    Groups groups;
+    for (std::size_t i = 0; i < of_each; ++i) {
+      groups.triangles.push_back(triangle());
+      groups.raw_edges.push_back({1 + below(4), number(), below(2) == 0});
+      groups.uv_edges.push_back({1 + below(3), number()});
+      groups.seam_edges.push_back({number(), below(2) == 0});
+      groups.stars.push_back({1 + below(9), below(3), below(5) == 0, below(3) != 0, below(2)});
+      groups.components.push_back({1 + below(100), below(4) != 0});
+      groups.charts.push_back(
+          {static_cast<FaceId>(i), 1 + below(100), below(5) == 0, below(7) != 0, below(3)});
+    }
+    return groups;
+  }
+
+  std::uint64_t below(std::uint64_t end) { return random_() % end; }
+
+ private:
+  double number() { return std::ldexp(1 + fraction(), static_cast<int>(below(60)) - 30); }
+  double fraction() { return static_cast<double>(random_()) * 0x1p-32; }
+
+  Triangle triangle() {
+    const double size = number(), texels = number();
+    Position p[3];
+    Texel texel[3];
+    for (int k = 0; k < 3; ++k) {
+      p[k] = {size * fraction(), size * fraction(), size * fraction()};
+      texel[k] = {texels * fraction(), texels * fraction()};
+    }
+    const std::uint64_t kind = below(12);
+    if (kind == 0) p[2] = p[1];
+    if (kind == 1) texel[2] = texel[1];
+    if (kind == 2) texel[2] = {texel[1].x + 1e-6 * texels, texel[1].y};
+    Triangle triangle = whole_triangle(p, texel);
+    triangle.uv_far = kind == 3;
+    if (kind == 4) triangle.kind = FaceKind::kWeldedDegenerate;
+    if (kind == 5) triangle.kind = FaceKind::kDegenerate;
+    if (kind == 6) triangle.kind = FaceKind::kNonFinite;
+    if (kind == 7) triangle.slot = kNone<SlotId>;
+    if (kind == 8) {
+      triangle.has_uv_triangle = false;
+      triangle.area_uv = 0;
+      triangle.t[1] = kNoTexCoord;
+    }
+    return triangle;
+  }
+
+  std::mt19937 random_;
+};
+
+/// Facts for the end of measures, with percentiles of every distribution.
+inline MeshFacts any_facts() {
+  MeshFacts facts;
+  facts.name = "model.obj";
+  facts.faces = 1000;
+  facts.positions = 100000;
+  facts.boundary_components = 3;
+  facts.box.add({0, 0, 0});
+  facts.box.add({1, 2, 1});
+  facts.textures.slots.push_back({"image.png", "image.png", ImageSize{4, 4}, true});
+  facts.textures.has_images = true;
+  for (const auto& measure : all_measures()) {
+    if (!measure->sampled()) continue;
+    Quantiles quantiles{};
+    quantiles.rising.fill(1);
+    quantiles.falling.fill(2);
+    facts.quantiles.emplace(measure->name(), quantiles);
+  }
+  return facts;
+}
+
+}  // namespace atlasgauge

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stream/groups.hpp"
+#include "stream/mesh/charts.hpp"
+#include "stream/mesh/components.hpp"
+#include "stream/mesh/edges.hpp"
+#include "stream/mesh/seams.hpp"
+#include "stream/mesh/stars.hpp"
+#include "stream/mesh/triangles.hpp"
+#include "stream/mesh/weld.hpp"
+#include "tests/stream/mesh/small_mesh.hpp"
+#include "tests/support/engine_fixture.hpp"
+
+namespace atlasgauge {
+
+/// Keeps all groups of all workers.
+class GroupCollector : public GroupSinks, private GroupSink {
+ public:
+  GroupSink& of_worker(std::size_t) override { return *this; }
+  std::vector<std::string> distributions() const override { return {}; }
+
+  std::vector<Triangle> triangles;
+  std::vector<RawEdge> raw_edges;
+  std::vector<UvEdge> uv_edges;
+  std::vector<SeamEdge> seam_edges;
+  std::vector<VertexStar> stars;
+  std::vector<Component> components;
+  std::vector<Chart> charts;
+
+ private:
+  void accept(std::span<const Triangle> groups) override { keep(groups, triangles); }
+  void accept(std::span<const RawEdge> groups) override { keep(groups, raw_edges); }
+  void accept(std::span<const UvEdge> groups) override { keep(groups, uv_edges); }
+  void accept(std::span<const SeamEdge> groups) override { keep(groups, seam_edges); }
+  void accept(std::span<const VertexStar> groups) override { keep(groups, stars); }
+  void accept(std::span<const Component> groups) override { keep(groups, components); }
+  void accept(std::span<const Chart> groups) override { keep(groups, charts); }
+  void sample(std::size_t, std::span<const Triangle>, std::vector<Sample>&) override {}
+
+  template <class Group>
+  void keep(std::span<const Group> groups, std::vector<Group>& list) {
+    const std::lock_guard lock(mutex_);
+    list.insert(list.end(), groups.begin(), groups.end());
+  }
+
+  std::mutex mutex_;
+};
+
+/// A mesh on its way through the stages, as the pipeline sends it.
+class Stages {
+ public:
+  Stages(TestEngine& engine, const SmallMesh& small, const TextureSlots& slots = one_image())
+      : engine_(engine), mesh(small.store(engine)), weld(weld_vertices(engine, mesh)) {
+    frames = frame_slots(engine_, mesh, weld, slots);
+    stream_triangles(slots);
+  }
+
+  /// The groups of edges; what they tell later stages is in `edges`.
+  void run_edges() {
+    const auto table = EdgeTable::make(engine_, weld.found_any(), mesh.faces.size(),
+                                       mesh.positions.size(), engine_.budget.free_bytes() / 2);
+    std::vector<Triangle> all = triangles;
+    std::sort(all.begin(), all.end(),
+              [](const Triangle& a, const Triangle& b) { return raw(a.face) < raw(b.face); });
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      table->add(i % engine_.workers.count(), {&all[i], 1}, frames);
+    }
+    edges = table->group(frames, groups);
+  }
+
+  std::uint64_t run_stars() {
+    return group_stars(engine_, mesh.faces, facts, mesh.positions.size(), groups);
+  }
+
+  void run_components() {
+    FaceLabels labels(engine_, std::move(edges.raw_links), facts.size(), edges.raw_manifold);
+    group_components(engine_, labels, facts, groups);
+  }
+
+  std::uint64_t run_boundary(std::uint64_t boundary_vertices) {
+    return count_boundary_components(engine_, std::move(edges.boundary_links),
+                                     mesh.positions.size(), boundary_vertices);
+  }
+
+  Spill<FaceId> run_charts() {
+    FaceLabels labels(engine_, std::move(edges.uv_links), facts.size(), edges.uv_manifold);
+    Spill<FaceId> null_faces = group_charts(engine_, labels, facts, largest_area_uv, groups);
+    std::sort(groups.charts.begin(), groups.charts.end(),
+              [](const Chart& a, const Chart& b) { return raw(a.first_face) < raw(b.first_face); });
+    return null_faces;
+  }
+
+  void run_seams(Spill<FaceId> null_faces) {
+    group_seams(engine_, std::move(edges.seams), std::move(null_faces), facts.size(), groups);
+  }
+
+ private:
+  TestEngine& engine_;
+
+ public:
+  MeshStore mesh;
+  Weld weld;
+  SlotFrames frames;
+  std::vector<Triangle> triangles;  ///< in face order
+  Spill<FaceFacts> facts;
+  double largest_area_uv = 0;
+  GroupCollector groups;
+  EdgeResults edges;
+
+ private:
+  void stream_triangles(const TextureSlots& slots) {
+    StageLog::Stage stage(engine_.log, "triangles");
+    std::vector<std::vector<Triangle>> batches(engine_.workers.count());
+    SpillWriter<FaceFacts> writer(engine_.scratch);
+    TriangleVisitor visitor;
+    visitor.transform = [&](std::size_t worker, std::span<const Triangle> some) {
+      batches[worker].assign(some.begin(), some.end());
+    };
+    visitor.commit = [&](std::size_t worker) {
+      for (const Triangle& triangle : batches[worker]) {
+        triangles.push_back(triangle);
+        writer.push(FaceFacts(triangle));
+        largest_area_uv = std::max(largest_area_uv, std::abs(triangle.area_uv));
+      }
+    };
+    visit_triangles(engine_, mesh, weld, slots, frames, engine_.budget.free_bytes() / 2, stage,
+                    visitor);
+    facts = writer.finish();
+  }
+};
+
+}  // namespace atlasgauge
