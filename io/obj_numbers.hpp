@@ -20,6 +20,9 @@ constexpr bool is_word_end(char c) {
 }
 
 inline const char* skip_blanks(const char* text) {
+  if (*text == ' ') [[likely]] {
+    ++text;
+  }
   while (static_cast<unsigned char>(*text) <= ' ' && is_blank(*text)) ++text;
   return text;
 }
@@ -59,7 +62,7 @@ struct Decimal {
 
 /// Above 9 for anything but a digit.
 constexpr std::uint32_t digit_of(char c) {
-  return static_cast<unsigned char>(c - '0');
+  return static_cast<unsigned char>(c) - std::uint32_t{'0'};
 }
 
 /// Appends digits to a value; returns their end. Overflow wraps, so callers count the digits.

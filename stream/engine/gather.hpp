@@ -35,10 +35,26 @@ struct Slices {
 /// requests are distributed to slices of the table, answered slice by slice, and the answers
 /// distributed back to slices of the output. Two sequential passes, no random access to disk, and
 /// an index that occurs often costs nothing extra. Indices at or past the table's end give
-/// `absent`. Consumes `indices`, at most 2^32 of them.
+/// `absent`.
 template <class Value>
-Spill<Value> gather(const Engine& engine, Spill<std::uint32_t> indices, Spill<Value>& table,
-                    const Value& absent) {
+class Gathering {
+ public:
+  /// At most 2^32 indices.
+  Gathering(const Engine& engine, Spill<Value>& table, const Value& absent)
+      : engine_(engine), table_(table), absent_(absent) {
+    const std::uint64_t least = 16 * engine.block_bytes();
+    const std::uint64_t useful = table.size() * sizeof(Value) * 2 + least;
+    memory_ = engine.budget.reserve_between(least, useful, "looking records up by index");
+    slices_ = detail::Slices::plan(table.size(), sizeof(Value), memory_.bytes() / 2);
+  }
+
+  Spill<Value> run(Spill<std::uint32_t> indices) {
+    if (slices_.count() <= 1) return look_up(std::move(indices));
+    const auto outputs = detail::Slices::plan(indices.size(), sizeof(Value), memory_.bytes() / 2);
+    return scatter(answer(request(std::move(indices)), outputs), outputs);
+  }
+
+ private:
   struct Request {
     std::uint32_t index, at;
   };
@@ -46,74 +62,80 @@ Spill<Value> gather(const Engine& engine, Spill<std::uint32_t> indices, Spill<Va
     std::uint32_t at;
     Value value;
   };
-  const std::uint64_t block_bytes = engine.block_bytes();
-  const std::uint64_t least = 16 * block_bytes;
-  const std::uint64_t useful = table.size() * sizeof(Value) * 2 + 16 * block_bytes;
-  const Reservation memory =
-      engine.budget.reserve_between(least, std::max(least, useful), "looking records up by index");
-  const std::uint64_t slice_bytes = memory.bytes() / 2;
-  const auto tables = detail::Slices::plan(table.size(), sizeof(Value), slice_bytes);
-  const auto outputs = detail::Slices::plan(indices.size(), sizeof(Value), slice_bytes);
-  constexpr auto kConsume = SpillReader<std::uint32_t>::Mode::kConsume;
+  template <class T>
+  static constexpr auto kConsume = SpillReader<T>::Mode::kConsume;
 
-  SpillWriter<Value> output(engine.scratch);
-  if (tables.count() <= 1) {
-    std::vector<Value> all(table.size());
-    SpillReader<Value>(table).read(all);
-    SpillReader<std::uint32_t> reader(indices, kConsume);
-    for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
-      for (const std::uint32_t index : block) output.push(index < all.size() ? all[index] : absent);
+  /// The table fits in memory.
+  Spill<Value> look_up(Spill<std::uint32_t> indices) {
+    std::vector<Value> all(table_.size());
+    SpillReader<Value>(table_).read(all);
+    SpillWriter<Value> output(engine_.scratch);
+    SpillReader<std::uint32_t> reader(indices, kConsume<std::uint32_t>);
+    std::uint32_t index = 0;
+    while (reader.read(index)) output.push(index < all.size() ? all[index] : absent_);
+    return output.finish();
+  }
+
+  /// Requests by slice of the table; one more bucket for those past its end.
+  std::vector<Spill<Request>> request(Spill<std::uint32_t> indices) {
+    Partition<Request> partition(engine_.scratch, slices_.count() + 1);
+    typename Partition<Request>::Writer writer(partition);
+    SpillReader<std::uint32_t> reader(indices, kConsume<std::uint32_t>);
+    std::uint32_t index = 0;
+    for (std::uint32_t at = 0; reader.read(index); ++at) {
+      writer.push(index < table_.size() ? slices_.of(index) : slices_.count(), {index, at});
+    }
+    writer.flush();
+    return partition.finish();
+  }
+
+  /// Answers by slice of the output.
+  std::vector<Spill<Answer>> answer(std::vector<Spill<Request>> requests,
+                                    const detail::Slices& outputs) {
+    Partition<Answer> partition(engine_.scratch, outputs.count());
+    typename Partition<Answer>::Writer writer(partition);
+    SpillReader<Value> table(table_);
+    std::vector<Value> slice;
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+      const bool past_end = i == slices_.count();
+      slice.resize(past_end ? 0 : slices_.end(i) - slices_.begin(i));
+      table.read(slice);
+      SpillReader<Request> reader(requests[i], kConsume<Request>);
+      Request request{};
+      while (reader.read(request)) {
+        const Value& value = past_end ? absent_ : slice[request.index - slices_.begin(i)];
+        writer.push(outputs.of(request.at), {request.at, value});
+      }
+    }
+    writer.flush();
+    return partition.finish();
+  }
+
+  Spill<Value> scatter(std::vector<Spill<Answer>> answers, const detail::Slices& outputs) {
+    SpillWriter<Value> output(engine_.scratch);
+    std::vector<Value> slice;
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      slice.resize(outputs.end(i) - outputs.begin(i));
+      SpillReader<Answer> reader(answers[i], kConsume<Answer>);
+      Answer answer{};
+      while (reader.read(answer)) slice[answer.at - outputs.begin(i)] = answer.value;
+      output.append(slice);
     }
     return output.finish();
   }
 
-  std::vector<Spill<Request>> requests;
-  {
-    Partition<Request> partition(engine.scratch, tables.count() + 1);
-    typename Partition<Request>::Writer writer(partition);
-    SpillReader<std::uint32_t> reader(indices, kConsume);
-    std::uint32_t at = 0;
-    for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
-      for (const std::uint32_t index : block) {
-        writer.push(index < table.size() ? tables.of(index) : tables.count(), {index, at++});
-      }
-    }
-    writer.flush();
-    requests = partition.finish();
-  }
+  const Engine& engine_;
+  Spill<Value>& table_;
+  Value absent_;
+  Reservation memory_;
+  detail::Slices slices_;
+};
 
-  std::vector<Spill<Answer>> answers;
-  {
-    Partition<Answer> partition(engine.scratch, std::max<std::size_t>(1, outputs.count()));
-    typename Partition<Answer>::Writer writer(partition);
-    SpillReader<Value> table_reader(table);
-    std::vector<Value> slice;
-    for (std::size_t i = 0; i <= tables.count(); ++i) {
-      const bool past_end = i == tables.count();
-      slice.resize(past_end ? 0 : tables.end(i) - tables.begin(i));
-      table_reader.read(slice);
-      SpillReader<Request> reader(requests[i], SpillReader<Request>::Mode::kConsume);
-      for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
-        for (const Request& request : block) {
-          const Value& value = past_end ? absent : slice[request.index - tables.begin(i)];
-          writer.push(outputs.of(request.at), {request.at, value});
-        }
-      }
-    }
-    writer.flush();
-    answers = partition.finish();
-  }
-
-  std::vector<Value> slice;
-  for (std::size_t i = 0; i < outputs.count(); ++i) {
-    slice.resize(outputs.end(i) - outputs.begin(i));
-    SpillReader<Answer> reader(answers[i], SpillReader<Answer>::Mode::kConsume);
-    for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
-      for (const Answer& answer : block) slice[answer.at - outputs.begin(i)] = answer.value;
-    }
-    output.append(slice);
-  }
-  return output.finish();
+/// One Gathering. Consumes `indices`.
+template <class Value>
+Spill<Value> gather(const Engine& engine, Spill<std::uint32_t> indices, Spill<Value>& table,
+                    const Value& absent) {
+  return Gathering<Value>(engine, table, absent).run(std::move(indices));
 }
 
 }  // namespace atlasgauge

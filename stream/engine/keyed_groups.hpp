@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -63,6 +64,31 @@ class KeyedGroups {
     return {key_first, key_end, static_cast<std::uint32_t>((keys + buckets - 1) / buckets)};
   }
 
+  /// Records distributed by key.
+  struct Buckets {
+    KeyRanges ranges;
+    std::vector<Spill<Record>> spills;
+  };
+
+  /// Distributes the records, about `records` with keys below `key_end`, that fill(push) hands to
+  /// push(record), from one thread. `fill` may use up to three blocks of memory besides.
+  template <class Fill>
+  static Buckets distribute(const Engine& engine, std::uint64_t records, std::uint64_t key_end,
+                            std::string_view who, Fill fill) {
+    const std::uint64_t free_bytes = engine.budget.free_bytes();
+    const KeyRanges ranges = plan(engine, records, 0, static_cast<std::uint32_t>(key_end),
+                                  free_bytes / 8 * 7, free_bytes / 2);
+    const Reservation memory = engine.budget.reserve(
+        Partition<Record>::memory_bytes(ranges.bucket_count(), 1, engine.block_bytes()) +
+            3 * engine.block_bytes(),
+        who);
+    Partition<Record> partition(engine.scratch, ranges.bucket_count());
+    typename Partition<Record>::Writer writer(partition);
+    fill([&](const Record& record) { writer.push(ranges.bucket_of(record.key()), record); });
+    writer.flush();
+    return {ranges, partition.finish()};
+  }
+
   KeyedGroups(const Engine& engine, OnGroup on_group, OnHotKey on_hot_key)
       : engine_(engine),
         on_group_(std::move(on_group)),
@@ -70,8 +96,9 @@ class KeyedGroups {
         memory_(engine.workers.count()) {}
 
   /// Consumes the buckets. Uses what the budget has free, and needs about three blocks of it.
-  void process(std::vector<Spill<Record>> buckets, const KeyRanges& ranges,
-               StageLog::Stage* stage = nullptr) {
+  void process(Buckets all_buckets, StageLog::Stage* stage = nullptr) {
+    const KeyRanges ranges = all_buckets.ranges;
+    std::vector<Spill<Record>> buckets = std::move(all_buckets.spills);
     std::vector<std::size_t> small, large;
     {
       const Reservation all = reserve();
@@ -165,7 +192,7 @@ class KeyedGroups {
       writer.flush();
       parts = partition.finish();
     }
-    process(std::move(parts), ranges);
+    process({ranges, std::move(parts)});
   }
 
   const Engine& engine_;

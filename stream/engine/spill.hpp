@@ -174,7 +174,13 @@ class SpillReader {
     return done;
   }
 
-  bool read(T& record) { return read(std::span<T>(&record, 1)) == 1; }
+  bool read(T& record) {
+    if (rest_.empty()) rest_ = next_block();
+    if (rest_.empty()) return false;
+    record = rest_.front();
+    rest_ = rest_.subspan(1);
+    return true;
+  }
 
  private:
   void leave_block() {

@@ -79,42 +79,30 @@ class ChartSum {
   Signs as_is_, coherent_;
 };
 
-std::vector<Spill<ChartFace>> distribute_faces(const Engine& engine, FaceLabels& labels,
-                                               Spill<FaceFacts>& facts, KeyRanges& ranges) {
-  const std::uint64_t free_bytes = engine.budget.free_bytes();
-  ranges = KeyedGroups<ChartFace>::plan(engine, facts.size(), 0,
-                                        static_cast<std::uint32_t>(facts.size()),
-                                        free_bytes / 8 * 7, free_bytes / 2);
-  const Reservation memory = engine.budget.reserve(
-      Partition<ChartFace>::memory_bytes(ranges.bucket_count(), 1, engine.block_bytes()) +
-          3 * engine.block_bytes(),
-      "distributing faces to charts");
-  Partition<ChartFace> partition(engine.scratch, ranges.bucket_count());
-  Partition<ChartFace>::Writer writer(partition);
-  SpillReader<Label> charts(labels.by_all_edges());
-  SpillReader<Label> classes(labels.by_manifold_edges());
-  SpillReader<FaceFacts> faces(facts);
-  std::uint32_t number = 0;
-  FaceFacts face;
-  Label chart, orientation;
-  for (; faces.read(face); ++number) {
-    charts.read(chart);
-    classes.read(orientation);
-    if (!face.at_welded_level()) continue;
-    const std::uint32_t flags = (orientation.parity() ? ChartFace::kFlipped : 0) |
-                                (orientation.conflict() ? ChartFace::kConflict : 0);
-    writer.push(ranges.bucket_of(chart.first()), {chart.first(), number | flags, face.area_uv()});
-  }
-  writer.flush();
-  return partition.finish();
+KeyedGroups<ChartFace>::Buckets distribute_faces(const Engine& engine, FaceLabels& labels,
+                                                 Spill<FaceFacts>& facts) {
+  const auto push_faces = [&](auto push) {
+    SpillReader<Label> charts(labels.by_all_edges());
+    SpillReader<Label> classes(labels.by_manifold_edges());
+    SpillReader<FaceFacts> faces(facts);
+    FaceFacts face;
+    Label chart, orientation;
+    for (std::uint32_t number = 0;
+         faces.read(face) && charts.read(chart) && classes.read(orientation); ++number) {
+      if (!face.at_welded_level()) continue;
+      const std::uint32_t flags = (orientation.parity() ? ChartFace::kFlipped : 0) |
+                                  (orientation.conflict() ? ChartFace::kConflict : 0);
+      push({chart.first(), number | flags, face.area_uv()});
+    }
+  };
+  return KeyedGroups<ChartFace>::distribute(engine, facts.size(), facts.size(),
+                                            "distributing faces to charts", push_faces);
 }
 
 }  // namespace
 
 Spill<FaceId> group_charts(const Engine& engine, FaceLabels& labels, Spill<FaceFacts>& facts,
                            double largest_area_uv, GroupSinks& sinks) {
-  KeyRanges ranges;
-  std::vector<Spill<ChartFace>> buckets = distribute_faces(engine, labels, facts, ranges);
   SharedSpill<FaceId> null_faces(engine.scratch);
   std::vector<SharedSpill<FaceId>::Writer> null_writers;
   std::vector<GroupBuffer<Chart>> outputs;
@@ -143,7 +131,7 @@ Spill<FaceId> group_charts(const Engine& engine, FaceLabels& labels, Spill<FaceF
           null_writers[0].push(face.face());
         }
       });
-  groups.process(std::move(buckets), ranges);
+  groups.process(distribute_faces(engine, labels, facts));
   for (auto& output : outputs) output.flush();
   for (auto& writer : null_writers) writer.flush();
   return null_faces.finish();

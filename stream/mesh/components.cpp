@@ -25,42 +25,30 @@ Spill<Link> copy_of(const Engine& engine, Spill<Link>& links) {
   return copy.finish();
 }
 
-/// Reads labels and facts of the faces side by side, and writes the runs of each component.
-std::vector<Spill<ComponentRun>> distribute_runs(const Engine& engine, FaceLabels& labels,
-                                                 Spill<FaceFacts>& facts, KeyRanges& ranges) {
-  const std::uint64_t free_bytes = engine.budget.free_bytes();
-  ranges = KeyedGroups<ComponentRun>::plan(engine, facts.size(), 0,
-                                           static_cast<std::uint32_t>(facts.size()),
-                                           free_bytes / 8 * 7, free_bytes / 2);
-  const Reservation memory = engine.budget.reserve(
-      Partition<ComponentRun>::memory_bytes(ranges.bucket_count(), 1, engine.block_bytes()) +
-          3 * engine.block_bytes(),
-      "distributing components");
-  Partition<ComponentRun> partition(engine.scratch, ranges.bucket_count());
-  Partition<ComponentRun>::Writer writer(partition);
-  SpillReader<Label> components(labels.by_all_edges());
-  SpillReader<Label> classes(labels.by_manifold_edges());
-  SpillReader<FaceFacts> faces(facts);
-  ComponentRun run{0, 0, 0};
-  const auto close_run = [&] {
-    if (run.faces > 0) writer.push(ranges.bucket_of(run.component), run);
-  };
-  FaceFacts face;
-  Label component, orientation;
-  while (faces.read(face)) {
-    components.read(component);
-    classes.read(orientation);
-    if (!face.at_raw_level()) continue;
-    if (run.faces == 0 || run.component != component.first()) {
-      close_run();
-      run = {component.first(), 0, 0};
+/// Labels and facts of the faces, side by side, as runs of each component.
+KeyedGroups<ComponentRun>::Buckets distribute_runs(const Engine& engine, FaceLabels& labels,
+                                                   Spill<FaceFacts>& facts) {
+  const auto push_runs = [&](auto push) {
+    SpillReader<Label> components(labels.by_all_edges());
+    SpillReader<Label> classes(labels.by_manifold_edges());
+    SpillReader<FaceFacts> faces(facts);
+    ComponentRun run{0, 0, 0};
+    FaceFacts face;
+    Label component, orientation;
+    while (faces.read(face) && components.read(component) && classes.read(orientation)) {
+      if (!face.at_raw_level()) continue;
+      if (run.faces > 0 && run.component != component.first()) {
+        push(run);
+        run = {};
+      }
+      run.component = component.first();
+      ++run.faces;
+      run.conflict |= orientation.conflict() ? 1U : 0U;
     }
-    ++run.faces;
-    run.conflict |= orientation.conflict() ? 1U : 0U;
-  }
-  close_run();
-  writer.flush();
-  return partition.finish();
+    if (run.faces > 0) push(run);
+  };
+  return KeyedGroups<ComponentRun>::distribute(engine, facts.size(), facts.size(),
+                                               "distributing components", push_runs);
 }
 
 void add(Component& component, const ComponentRun& run) {
@@ -80,8 +68,6 @@ FaceLabels::FaceLabels(const Engine& engine, Spill<Link> links, std::uint64_t fa
 
 void group_components(const Engine& engine, FaceLabels& labels, Spill<FaceFacts>& facts,
                       GroupSinks& sinks) {
-  KeyRanges ranges;
-  std::vector<Spill<ComponentRun>> buckets = distribute_runs(engine, labels, facts, ranges);
   std::vector<GroupBuffer<Component>> outputs;
   for (std::size_t i = 0; i < engine.workers.count(); ++i) {
     outputs.emplace_back(sinks.of_worker(i));
@@ -100,7 +86,7 @@ void group_components(const Engine& engine, FaceLabels& labels, Spill<FaceFacts>
         while (reader.read(run)) add(component, run);
         outputs[0].push(component);
       });
-  groups.process(std::move(buckets), ranges);
+  groups.process(distribute_runs(engine, labels, facts));
   for (auto& output : outputs) output.flush();
 }
 

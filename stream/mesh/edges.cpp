@@ -193,8 +193,8 @@ class EdgeTableOf : public EdgeTable {
   }
 
   EdgeResults group(const SlotFrames& frames, GroupSinks& sinks) override {
-    std::vector<Spill<Record>> buckets = end_distribution();
-    StageLog::Stage stage(engine_.log, "edges", buckets.size());
+    typename KeyedGroups<Record>::Buckets buckets = end_distribution();
+    StageLog::Stage stage(engine_.log, "edges", buckets.spills.size());
     const Reservation outputs_memory = engine_.budget.reserve(
         4 * engine_.block_bytes() + engine_.workers.count() * kOutputBytes, "links of edges");
     SharedSpill<Link> raw(engine_.scratch), uv(engine_.scratch), boundary(engine_.scratch);
@@ -211,7 +211,7 @@ class EdgeTableOf : public EdgeTable {
         [&](std::uint32_t, Spill<Record> star) {
           split_hot_star(std::move(star), frames, outputs[0]);
         });
-    groups.process(std::move(buckets), ranges_, &stage);
+    groups.process(std::move(buckets), &stage);
 
     EdgeResults results;
     for (Output& output : outputs) {
@@ -261,13 +261,13 @@ class EdgeTableOf : public EdgeTable {
     return record;
   }
 
-  std::vector<Spill<Record>> end_distribution() {
+  typename KeyedGroups<Record>::Buckets end_distribution() {
     for (auto& writer : writers_) writer.flush();
     writers_.clear();
     std::vector<Spill<Record>> buckets = partition_->finish();
     partition_.reset();
     memory_.release();
-    return buckets;
+    return {ranges_, std::move(buckets)};
   }
 
   /// The half-edges with one lower vertex.

@@ -184,34 +184,22 @@ class HotStar {
   std::uint64_t vertices_;
 };
 
-std::vector<Spill<StarCorner>> distribute_corners(const Engine& engine, Spill<FaceRecord>& faces,
-                                                  Spill<FaceFacts>& facts, std::uint64_t vertices,
-                                                  KeyRanges& ranges) {
-  const std::uint64_t free_bytes = engine.budget.free_bytes();
-  ranges = KeyedGroups<StarCorner>::plan(engine, 3 * faces.size(), 0,
-                                         static_cast<std::uint32_t>(vertices), free_bytes / 8 * 7,
-                                         free_bytes / 2);
-  const Reservation memory = engine.budget.reserve(
-      Partition<StarCorner>::memory_bytes(ranges.bucket_count(), 1, engine.block_bytes()) +
-          2 * engine.block_bytes(),
-      "distributing corners");
-  Partition<StarCorner> partition(engine.scratch, ranges.bucket_count());
-  Partition<StarCorner>::Writer writer(partition);
-  SpillReader<FaceRecord> face_reader(faces);
-  SpillReader<FaceFacts> facts_reader(facts);
-  FaceFacts face_facts;
-  for (auto block = face_reader.next_block(); !block.empty(); block = face_reader.next_block()) {
-    for (const FaceRecord& face : block) {
-      facts_reader.read(face_facts);
+KeyedGroups<StarCorner>::Buckets distribute_corners(const Engine& engine, Spill<FaceRecord>& faces,
+                                                    Spill<FaceFacts>& facts,
+                                                    std::uint64_t vertices) {
+  const auto push_corners = [&](auto push) {
+    SpillReader<FaceRecord> face_reader(faces);
+    SpillReader<FaceFacts> facts_reader(facts);
+    FaceRecord face{};
+    FaceFacts face_facts;
+    while (face_reader.read(face) && facts_reader.read(face_facts)) {
       if (!face_facts.at_raw_level()) continue;
       const std::uint32_t v[3] = {raw(face.v[0]), raw(face.v[1]), raw(face.v[2])};
-      for (int k = 0; k < 3; ++k) {
-        writer.push(ranges.bucket_of(v[k]), {v[k], v[(k + 1) % 3], v[(k + 2) % 3]});
-      }
+      for (int k = 0; k < 3; ++k) push({v[k], v[(k + 1) % 3], v[(k + 2) % 3]});
     }
-  }
-  writer.flush();
-  return partition.finish();
+  };
+  return KeyedGroups<StarCorner>::distribute(engine, 3 * faces.size(), vertices,
+                                             "distributing corners", push_corners);
 }
 
 /// Hands out the stars of one worker, and counts the vertices on boundary edges as they pass.
@@ -237,9 +225,6 @@ class StarOutput {
 std::uint64_t group_stars(const Engine& engine, Spill<FaceRecord>& faces, Spill<FaceFacts>& facts,
                           std::uint64_t vertices, GroupSinks& sinks) {
   StageLog::Stage stage(engine.log, "vertex stars", faces.size());
-  KeyRanges ranges;
-  std::vector<Spill<StarCorner>> buckets =
-      distribute_corners(engine, faces, facts, vertices, ranges);
   std::vector<StarOutput> outputs;
   for (std::size_t i = 0; i < engine.workers.count(); ++i) outputs.emplace_back(sinks.of_worker(i));
   std::vector<StarCounter> counters(engine.workers.count());
@@ -250,7 +235,7 @@ std::uint64_t group_stars(const Engine& engine, Spill<FaceRecord>& faces, Spill<
         outputs[worker].push(counters[worker].count(star));
       },
       [&](std::uint32_t, Spill<StarCorner> star) { outputs[0].push(hot.count(std::move(star))); });
-  groups.process(std::move(buckets), ranges);
+  groups.process(distribute_corners(engine, faces, facts, vertices));
   std::uint64_t boundary_vertices = 0;
   for (StarOutput& output : outputs) boundary_vertices += output.finish();
   return boundary_vertices;

@@ -70,7 +70,7 @@ Groups group(TestEngine& engine, const std::vector<Pebble>& pebbles, std::uint32
         }
         groups.add(key, numbers);
       });
-  keyed.process(std::move(buckets), ranges);
+  keyed.process({ranges, std::move(buckets)});
   return groups;
 }
 
@@ -158,7 +158,7 @@ TEST(KeyedGroupsErrorTest, ErrorOfAGroupIsThrown) {
   KeyedGroups<Pebble> keyed(
       engine, [](std::size_t, std::span<Pebble>) { throw std::runtime_error("bad group"); },
       [](std::uint32_t, Spill<Pebble>) {});
-  EXPECT_THROW(keyed.process(std::move(buckets), {0, 2, 2}), std::runtime_error);
+  EXPECT_THROW(keyed.process({{0, 2, 2}, std::move(buckets)}), std::runtime_error);
   EXPECT_EQ(engine.budget.free_bytes(), engine.budget.limit_bytes());
 }
 
