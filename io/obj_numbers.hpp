@@ -19,6 +19,7 @@ constexpr bool is_word_end(char c) {
   return c == ' ' || static_cast<unsigned char>(c - '\t') <= '\r' - '\t';
 }
 
+/// One space is by far the most usual.
 inline const char* skip_blanks(const char* text) {
   if (*text == ' ') [[likely]] {
     ++text;

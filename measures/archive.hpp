@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <span>
@@ -27,8 +29,9 @@ class Saver {
       value.serialize(*this);
     } else {
       static_assert(std::is_trivially_copyable_v<Value>);
-      bytes_.resize(bytes_.size() + sizeof(Value));
-      std::memcpy(bytes_.data() + bytes_.size() - sizeof(Value), &value, sizeof(Value));
+      for (const std::byte byte : std::bit_cast<std::array<std::byte, sizeof(Value)>>(value)) {
+        bytes_.push_back(byte);
+      }
     }
   }
 

@@ -162,6 +162,25 @@ TEST(KeyedGroupsErrorTest, ErrorOfAGroupIsThrown) {
   EXPECT_EQ(engine.budget.free_bytes(), engine.budget.limit_bytes());
 }
 
+TEST(KeyedGroupsDistributeTest, EveryRecordComesToTheBucketOfItsKey) {
+  for (const std::uint64_t kib : {64, 4096}) {
+    TestEngine engine({.budget_bytes = kib << 10});
+    auto buckets = KeyedGroups<Pebble>::distribute(engine, 9000, 1000, "pebbles", [](auto push) {
+      for (std::uint32_t i = 0; i < 9000; ++i) push(Pebble{i % 1000, i});
+    });
+    ASSERT_EQ(buckets.spills.size(), buckets.ranges.bucket_count());
+    std::uint64_t records = 0;
+    for (std::size_t i = 0; i < buckets.spills.size(); ++i) {
+      for (const Pebble& pebble : records_of(buckets.spills[i])) {
+        ASSERT_EQ(buckets.ranges.bucket_of(pebble.colour), i);
+        ++records;
+      }
+    }
+    EXPECT_EQ(records, 9000U);
+    EXPECT_EQ(engine.budget.free_bytes(), engine.budget.limit_bytes());
+  }
+}
+
 TEST(KeyRangesTest, BucketsCoverTheKeysWithoutOverlap) {
   const KeyRanges ranges{10, 31, 5};
   EXPECT_EQ(ranges.bucket_count(), 5U);
