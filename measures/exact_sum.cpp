@@ -7,6 +7,8 @@
 namespace atlasgauge {
 namespace {
 
+__extension__ typedef unsigned __int128 UInt128;
+
 struct Product {
   double high, low;
 };
@@ -81,19 +83,30 @@ void ExactSum::propagate() {
   terms_ = 0;
 }
 
-Float128 ExactSum::precise() const {
-  if (not_finite_ > 0) return std::numeric_limits<double>::quiet_NaN();
+ExactSum ExactSum::magnitude(bool& negative) const {
   ExactSum sum = *this;
   sum.propagate();
-  const bool negative = sum.chunks_[kChunks - 1] < 0;
+  negative = sum.chunks_[kChunks - 1] < 0;
   if (negative) {
     for (std::int64_t& chunk : sum.chunks_) chunk = -chunk;
     sum.propagate();
   }
-  Float128 value = 0;
-  // From the top: five chunks hold all the bits that a Float128 keeps, the rest only rounds.
+  return sum;
+}
+
+std::size_t ExactSum::used_chunks() const {
   std::size_t top = kChunks;
-  while (top > 0 && sum.chunks_[top - 1] == 0) --top;
+  while (top > 0 && chunks_[top - 1] == 0) --top;
+  return top;
+}
+
+/// The top five chunks hold all the bits that a Float128 keeps.
+Float128 ExactSum::precise() const {
+  if (not_finite_ > 0) return std::numeric_limits<double>::quiet_NaN();
+  bool negative = false;
+  const ExactSum sum = magnitude(negative);
+  const std::size_t top = sum.used_chunks();
+  Float128 value = 0;
   for (std::size_t i = top; i > 0 && i + 5 > top; --i) {
     const int place = 32 * static_cast<int>(i - 1) - 1074;
     const Float128 half = std::scalbn(1.0, place / 2);
@@ -102,8 +115,24 @@ Float128 ExactSum::precise() const {
   return negative ? -value : value;
 }
 
+/// The top three chunks have at least 65 bits; whatever is below only breaks ties, and one bit can
+/// stand for it.
 double ExactSum::value() const {
-  return static_cast<double>(precise());
+  if (not_finite_ > 0) return std::numeric_limits<double>::quiet_NaN();
+  bool negative = false;
+  const ExactSum sum = magnitude(negative);
+  const std::size_t top = sum.used_chunks();
+  const std::size_t bottom = top < 3 ? 0 : top - 3;
+  UInt128 bits = 0;
+  for (std::size_t i = top; i > bottom; --i) {
+    bits = bits << 32 | static_cast<UInt128>(sum.chunks_[i - 1]);
+  }
+  for (std::size_t i = 0; i < bottom; ++i) {
+    if (sum.chunks_[i] != 0) bits |= 1;
+  }
+  const int place = 32 * static_cast<int>(bottom) - 1074;
+  const double value = std::scalbn(static_cast<double>(bits), place);
+  return negative ? -value : value;
 }
 
 }  // namespace atlasgauge

@@ -40,6 +40,10 @@ class ExactSum {
   static constexpr std::uint32_t kTermsPerPropagation = 512;
 
   void propagate();
+  /// The absolute value, propagated.
+  ExactSum magnitude(bool& negative) const;
+  /// Chunks up to the highest that is not 0.
+  std::size_t used_chunks() const;
 
   std::array<std::int64_t, kChunks> chunks_{};
   std::uint32_t terms_ = 0;

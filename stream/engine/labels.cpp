@@ -78,6 +78,11 @@ Spill<Label> label_in_memory(const Engine& engine, Graph graph) {
   return labels.finish();
 }
 
+/// Memory of one bucket a range of nodes, and of a few readers and writers beside them.
+std::uint64_t bucket_bytes(const Engine& engine, std::uint64_t nodes, std::uint64_t range_nodes) {
+  return ((nodes + range_nodes - 1) / range_nodes + 5) * engine.block_bytes();
+}
+
 /// What a range remembers of a node until the labels of the roots are known: the root inside the
 /// range and the parity against it; for a root, whether it goes on to the next round, and whether
 /// its set is in conflict (its own parity is always 0).
@@ -290,6 +295,8 @@ class StarRound {
   }
 
   void choose_hooks(Spill<Link>& links) {
+    const Reservation memory = engine_.budget.reserve(
+        ranges_.length * 4 + bucket_bytes(engine_, ranges_.total, ranges_.length), "star round");
     std::vector<SpillWriter<Directed>> writers;
     for (std::size_t i = 0; i < ranges_.count(); ++i) writers.emplace_back(engine_.scratch);
     const auto offer = [&](std::uint32_t from, std::uint32_t to, bool parity) {
@@ -351,8 +358,9 @@ class Labelling {
     RangeRound round(engine_, std::move(graph), range_nodes);
     Graph upper;
     {
-      const Reservation memory =
-          engine_.budget.reserve(range_nodes * RangeRound::kNodeBytes, "labelling by ranges");
+      const Reservation memory = engine_.budget.reserve(
+          range_nodes * RangeRound::kNodeBytes + bucket_bytes(engine_, nodes, range_nodes),
+          "labelling by ranges");
       upper = round.contract();
     }
     const bool poor = upper.nodes > nodes / 4 * 3;
@@ -366,9 +374,13 @@ class Labelling {
     return bytes + 3 * engine_.block_bytes() <= engine_.budget.free_bytes();
   }
 
-  /// Half of the free memory for the nodes, the other half for the buckets of links.
+  /// Half of the free memory for the nodes, the other half for the buckets of links: that serves
+  /// the most nodes, memory squared over 32 times the block size.
   std::uint64_t nodes_per_range() const {
-    return std::max<std::uint64_t>(1024, engine_.budget.free_bytes() / 2 / RangeRound::kNodeBytes);
+    const std::uint64_t free_bytes = engine_.budget.free_bytes();
+    const std::uint64_t beside_bytes = bucket_bytes(engine_, 1, 1);
+    return std::max<std::uint64_t>(
+        1024, (free_bytes - std::min(free_bytes, beside_bytes)) / 2 / RangeRound::kNodeBytes);
   }
 
   const Engine& engine_;
@@ -383,6 +395,8 @@ Spill<Label> canonical(const Engine& engine, Spill<Label> labels) {
   };
   const std::uint64_t memory_bytes = engine.budget.free_bytes() / 2;
   const auto slices = detail::Slices::plan(labels.size(), 4, memory_bytes);
+  Reservation memory = engine.budget.reserve(
+      bucket_bytes(engine, slices.total, slices.length) + slices.length * 4, "naming components");
   std::vector<SpillWriter<Member>> writers;
   for (std::size_t i = 0; i < slices.count(); ++i) writers.emplace_back(engine.scratch);
   SpillWriter<std::uint32_t> indices(engine.scratch);
@@ -394,7 +408,6 @@ Spill<Label> canonical(const Engine& engine, Spill<Label> labels) {
   });
   SpillWriter<std::uint32_t> firsts(engine.scratch);
   {
-    const Reservation memory = engine.budget.reserve(slices.length * 4, "naming components");
     std::vector<std::uint32_t> first;
     for (std::size_t i = 0; i < slices.count(); ++i) {
       first.assign(slices.end(i) - slices.begin(i), ~std::uint32_t{0});
@@ -406,6 +419,7 @@ Spill<Label> canonical(const Engine& engine, Spill<Label> labels) {
       firsts.append(first);
     }
   }
+  memory.release();
   Spill<std::uint32_t> table = firsts.finish();
   Spill<std::uint32_t> first_of_node = gather(engine, indices.finish(), table, std::uint32_t{0});
   SpillReader<std::uint32_t> reader(first_of_node, SpillReader<std::uint32_t>::Mode::kConsume);

@@ -65,7 +65,8 @@ class Selection {
 
   Quantiles run(std::uint64_t smallest, std::uint64_t largest) {
     const std::size_t workers = engine_.workers.count();
-    const std::uint64_t least = workers * (kTargets * 2 * sizeof(Bin) + engine_.block_bytes());
+    // Half of it holds at least two bins an interval, so that every pass narrows the intervals.
+    const std::uint64_t least = workers * (kTargets * 4 * sizeof(Bin) + engine_.block_bytes());
     const std::uint64_t useful =
         workers * (kBins * sizeof(Bin) + engine_.block_bytes()) + kSortable * sizeof(KeyWeight);
     const Reservation memory =
@@ -76,7 +77,7 @@ class Selection {
 
     intervals_ = {{smallest, largest}};
     std::uint64_t samples_left = samples_.size();
-    while (samples_left > sortable && !all_single()) samples_left = refine();
+    while (samples_left > sortable && !(targets_set_ && all_single())) samples_left = refine();
     return sort_rest();
   }
 

@@ -25,7 +25,9 @@ int open_unnamed(const std::string& directory, int flags) {
   if (file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR)) return file;
   std::string name = directory + "/atlasgauge-XXXXXX";
   const int named = ::mkostemp(name.data(), O_CLOEXEC | flags);
-  if (named >= 0) ::unlink(name.c_str());
+  const int reason = errno;
+  ::unlink(name.c_str());  // even a refused O_DIRECT may have made it
+  errno = reason;
   return named;
 }
 

@@ -88,10 +88,16 @@ template <class T>
 class SpillWriter {
  public:
   explicit SpillWriter(Scratch& scratch) : spill_(scratch), scratch_(&scratch) {}
-  SpillWriter(SpillWriter&& other) noexcept = default;
-  SpillWriter& operator=(SpillWriter&& other) noexcept = default;
+  SpillWriter(SpillWriter&& other) noexcept
+      : spill_(std::move(other.spill_)),
+        scratch_(other.scratch_),
+        buffer_(std::move(other.buffer_)),
+        block_(other.block_),
+        cursor_(other.cursor_),
+        in_block_(std::exchange(other.in_block_, 0)) {}
+  SpillWriter& operator=(SpillWriter&& other) = delete;
   ~SpillWriter() {
-    if (scratch_ != nullptr && in_block_ > 0) scratch_->free(block_);
+    if (in_block_ > 0) scratch_->free(block_);
   }
 
   void push(const T& record) {

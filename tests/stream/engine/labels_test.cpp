@@ -158,7 +158,7 @@ constexpr std::uint32_t kNodes = 30000;
 // in memory, so 30000 nodes take several rounds, and star rounds where the numbering is random. 16
 // MiB holds all.
 INSTANTIATE_TEST_SUITE_P(BudgetsAndPools, LabelsTest,
-                         testing::Values(std::tuple(64, 0), std::tuple(90, 40), std::tuple(160, 0),
+                         testing::Values(std::tuple(100, 0), std::tuple(90, 40), std::tuple(160, 0),
                                          std::tuple(16384, 0)));
 
 TEST_P(LabelsTest, NoNodes) {
@@ -286,7 +286,7 @@ TEST_P(LabelsTest, NodeCountsAroundARange) {
 
 TEST(LabelsInRangesTest, LocalGraphNeedsNoStarRound) {
   // Too little for the gather of a star round.
-  TestEngine engine({.budget_bytes = 40 << 10});
+  TestEngine engine({.budget_bytes = 80 << 10});
   const Links links = grid(in_order(20000), 10);
   Spill<Label> labels =
       label_nodes(engine, spill_of(engine, links), 20000, LinkRule::kManifoldOnly);
