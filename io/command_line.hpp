@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/texture_slots.hpp"
+#include "io/texture/texture_slots.hpp"
 
 namespace atlasgauge {
 

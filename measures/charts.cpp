@@ -1,4 +1,4 @@
-#include "measures/measure.hpp"
+#include "measures/base/measure.hpp"
 
 namespace atlasgauge {
 namespace {

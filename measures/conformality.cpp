@@ -1,6 +1,6 @@
+#include "measures/base/measure.hpp"
+#include "measures/base/statistics.hpp"
 #include "measures/mapping.hpp"
-#include "measures/measure.hpp"
-#include "measures/statistics.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "measures/exact_sum.hpp"
-#include "measures/measure.hpp"
+#include "measures/base/exact_sum.hpp"
+#include "measures/base/measure.hpp"
 
 namespace atlasgauge {
 namespace {

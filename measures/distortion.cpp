@@ -1,7 +1,7 @@
-#include "measures/exact_sum.hpp"
+#include "measures/base/exact_sum.hpp"
+#include "measures/base/measure.hpp"
+#include "measures/base/statistics.hpp"
 #include "measures/mapping.hpp"
-#include "measures/measure.hpp"
-#include "measures/statistics.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -1,5 +1,5 @@
-#include "measures/exact_sum.hpp"
-#include "measures/measure.hpp"
+#include "measures/base/exact_sum.hpp"
+#include "measures/base/measure.hpp"
 
 namespace atlasgauge {
 namespace {

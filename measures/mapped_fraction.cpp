@@ -1,6 +1,6 @@
-#include "measures/exact_sum.hpp"
+#include "measures/base/exact_sum.hpp"
+#include "measures/base/measure.hpp"
 #include "measures/mapping.hpp"
-#include "measures/measure.hpp"
 
 namespace atlasgauge {
 namespace {

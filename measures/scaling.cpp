@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "measures/exact_sum.hpp"
+#include "measures/base/exact_sum.hpp"
+#include "measures/base/measure.hpp"
+#include "measures/base/weighted_moments.hpp"
 #include "measures/mapping.hpp"
-#include "measures/measure.hpp"
-#include "measures/weighted_moments.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "measures/report.hpp"
+#include "measures/base/report.hpp"
 #include "stream/engine/engine.hpp"
 #include "stream/memory_plan.hpp"
 #include "stream/pipeline.hpp"

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "measures/measure.hpp"
+#include "measures/base/measure.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "measures/measure.hpp"
-#include "measures/statistics.hpp"
+#include "measures/base/measure.hpp"
+#include "measures/base/statistics.hpp"
 
 namespace atlasgauge {
 namespace {

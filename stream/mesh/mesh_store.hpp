@@ -4,7 +4,7 @@
 #include <string>
 
 #include "io/mesh_batch.hpp"
-#include "io/obj_reader.hpp"
+#include "io/obj/obj_reader.hpp"
 #include "io/warnings.hpp"
 #include "stream/engine/engine.hpp"
 #include "stream/engine/spill.hpp"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <span>
 
-#include "io/texture_slots.hpp"
+#include "io/texture/texture_slots.hpp"
 #include "stream/engine/engine.hpp"
 #include "stream/mesh/face_stream.hpp"
 #include "stream/mesh/mesh_store.hpp"

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "measures/measure.hpp"
-#include "measures/measure_set.hpp"
+#include "measures/base/measure.hpp"
+#include "measures/base/measure_set.hpp"
 #include "tests/measures/random_groups.hpp"
 
 namespace atlasgauge {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "measures/measure.hpp"
+#include "measures/base/measure.hpp"
 #include "stream/groups.hpp"
 
 namespace atlasgauge {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/obj_reader.hpp"
+#include "io/obj/obj_reader.hpp"
 #include "tests/support/collect_sink.hpp"
 
 namespace atlasgauge {

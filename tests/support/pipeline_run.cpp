@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "io/error.hpp"
-#include "measures/measure_set.hpp"
+#include "measures/base/measure_set.hpp"
 #include "stream/pipeline.hpp"
 
 namespace atlasgauge {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "io/texture_slots.hpp"
-#include "measures/report.hpp"
+#include "io/texture/texture_slots.hpp"
+#include "measures/base/report.hpp"
 #include "stream/engine/stage_log.hpp"
 
 namespace atlasgauge {

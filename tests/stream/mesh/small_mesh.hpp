@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/texture_slots.hpp"
+#include "io/texture/texture_slots.hpp"
 #include "stream/mesh/mesh_store.hpp"
 #include "stream/mesh/triangle.hpp"
 #include "tests/support/engine_fixture.hpp"

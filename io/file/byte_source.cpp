@@ -1,0 +1,172 @@
+#include "io/file/byte_source.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/iostreams/categories.hpp>
+#include <boost/iostreams/filter/gzip.hpp>
+#include <boost/iostreams/filter/zstd.hpp>
+#include <cerrno>
+#include <ios>
+#include <string_view>
+#include <utility>
+
+#include "io/error.hpp"
+#include "io/file/zstd_frames.hpp"
+
+namespace atlasgauge {
+namespace {
+
+constexpr std::size_t kMagicBytes = 4;
+constexpr std::streamsize kCompressedBytes = 256 << 10;
+
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(const std::string& path)
+      : fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (fd_ < 0) throw Error(ErrorKind::kInput, path, 0, "cannot open: " + errno_text());
+  }
+  ~FileDescriptor() { ::close(fd_); }
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+/// A file as it lies on disk. Its first bytes can be looked at before they are read, which works
+/// for pipes too.
+class PlainSource : public ByteSource {
+ public:
+  explicit PlainSource(const std::string& path) : path_(path), fd_(path) {
+    struct stat status {};
+    if (::fstat(fd_.get(), &status) != 0) fail("cannot read: " + errno_text());
+    if (S_ISDIR(status.st_mode)) fail("found a directory where a file is expected");
+    if (S_ISREG(status.st_mode)) file_bytes_ = static_cast<std::uint64_t>(status.st_size);
+    while (magic_bytes_ < kMagicBytes) {
+      const std::size_t bytes = read_file(magic_.data() + magic_bytes_, kMagicBytes - magic_bytes_);
+      if (bytes == 0) break;
+      magic_bytes_ += bytes;
+    }
+  }
+
+  std::string_view magic() const { return {magic_.data(), magic_bytes_}; }
+
+  std::size_t read(char* to, std::size_t bytes) override {
+    const std::size_t unread = magic_bytes_ - static_cast<std::size_t>(std::min<std::uint64_t>(
+                                                  consumed_bytes_, magic_bytes_));
+    const std::size_t got =
+        unread == 0 ? read_file(to, bytes) : magic().substr(magic_bytes_ - unread).copy(to, bytes);
+    consumed_bytes_ += got;
+    return got;
+  }
+
+  std::uint64_t consumed_bytes() const override { return consumed_bytes_; }
+  std::uint64_t file_bytes() const override { return file_bytes_; }
+
+ private:
+  std::size_t read_file(char* to, std::size_t bytes) {
+    for (;;) {
+      const ssize_t got = ::read(fd_.get(), to, bytes);
+      if (got >= 0) return static_cast<std::size_t>(got);
+      if (errno != EINTR) fail("cannot read: " + errno_text());
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& text) const {
+    throw Error(ErrorKind::kInput, path_, 0, text);
+  }
+
+  std::string path_;
+  FileDescriptor fd_;
+  std::array<char, kMagicBytes> magic_{};
+  std::size_t magic_bytes_ = 0;
+  std::uint64_t consumed_bytes_ = 0;
+  std::uint64_t file_bytes_ = 0;
+};
+
+/// What a decompressor reads from.
+class CompressedDevice {
+ public:
+  using char_type = char;
+  using category = boost::iostreams::source_tag;
+
+  CompressedDevice(PlainSource& file, ZstdFrames* frames) : file_(&file), frames_(frames) {}
+
+  std::streamsize read(char* to, std::streamsize bytes) {
+    const std::size_t got = file_->read(to, static_cast<std::size_t>(bytes));
+    if (got == 0) return -1;
+    if (frames_ != nullptr) frames_->add({to, got});
+    return static_cast<std::streamsize>(got);
+  }
+
+ private:
+  PlainSource* file_;
+  ZstdFrames* frames_;
+};
+
+template <class Decompressor>
+class CompressedSource : public ByteSource {
+ public:
+  CompressedSource(std::string path, std::unique_ptr<PlainSource> file, Decompressor decompressor)
+      : path_(std::move(path)),
+        file_(std::move(file)),
+        device_(*file_, kIsZstd ? &frames_ : nullptr),
+        decompressor_(std::move(decompressor)) {}
+
+  std::size_t read(char* to, std::size_t bytes) override {
+    if (at_end_) return 0;
+    try {
+      const std::streamsize got =
+          decompressor_.read(device_, to, static_cast<std::streamsize>(bytes));
+      if (got > 0) return static_cast<std::size_t>(got);
+    } catch (const std::ios_base::failure&) {
+      throw Error(ErrorKind::kInput, path_, 0, broken_text());
+    }
+    at_end_ = true;
+    if (!frames_.complete()) throw Error(ErrorKind::kInput, path_, 0, broken_text());
+    return 0;
+  }
+
+  std::uint64_t consumed_bytes() const override { return file_->consumed_bytes(); }
+  std::uint64_t file_bytes() const override { return file_->file_bytes(); }
+
+ private:
+  static constexpr bool kIsZstd = std::is_same_v<Decompressor, boost::iostreams::zstd_decompressor>;
+
+  static std::string broken_text() {
+    return std::string("the ") + (kIsZstd ? "zstd" : "gzip") +
+           " data is cut off or damaged; compress the model again";
+  }
+
+  std::string path_;
+  std::unique_ptr<PlainSource> file_;
+  ZstdFrames frames_;
+  CompressedDevice device_;
+  Decompressor decompressor_;
+  bool at_end_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<ByteSource> open_byte_source(const std::string& path) {
+  namespace bio = boost::iostreams;
+  auto file = std::make_unique<PlainSource>(path);
+  if (file->magic().starts_with("\x1F\x8B")) {
+    return std::make_unique<CompressedSource<bio::gzip_decompressor>>(
+        path, std::move(file),
+        bio::gzip_decompressor(bio::gzip::default_window_bits, kCompressedBytes));
+  }
+  if (ZstdFrames::is_magic(file->magic())) {
+    return std::make_unique<CompressedSource<bio::zstd_decompressor>>(
+        path, std::move(file), bio::zstd_decompressor(kCompressedBytes));
+  }
+  return file;
+}
+
+}  // namespace atlasgauge

@@ -1,0 +1,44 @@
+#include "measures/base/weighted_moments.hpp"
+
+#include <cmath>
+
+namespace atlasgauge {
+
+void WeightedMoments::add(double value, double weight) {
+  ++count_;
+  smallest_ = std::min(smallest_, value);
+  largest_ = std::max(largest_, value);
+  weight_.add(weight);
+  first_.add_product(weight, value);
+  second_.add_product(weight, value, value);
+}
+
+void WeightedMoments::merge(const WeightedMoments& other) {
+  count_ += other.count_;
+  smallest_ = std::min(smallest_, other.smallest_);
+  largest_ = std::max(largest_, other.largest_);
+  weight_.merge(other.weight_);
+  first_.merge(other.first_);
+  second_.merge(other.second_);
+}
+
+double WeightedMoments::mean() const {
+  return static_cast<double>(first_.precise() / weight_.precise());
+}
+
+double WeightedMoments::rms() const {
+  return std::sqrt(static_cast<double>(second_.precise() / weight_.precise()));
+}
+
+double WeightedMoments::variance() const {
+  const Float128 weight = weight_.precise();
+  const Float128 mean = first_.precise() / weight;
+  const auto variance = static_cast<double>(second_.precise() / weight - mean * mean);
+  return variance < 0 ? 0 : variance;
+}
+
+double WeightedMoments::standard_deviation() const {
+  return std::sqrt(variance());
+}
+
+}  // namespace atlasgauge

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "measures/base/exact_sum.hpp"
+
+namespace atlasgauge {
+
+/// Mean, root mean square, population variance and range of weighted values. The moments about zero
+/// are summed to more than 100 bits, so that the variance keeps its digits even where all values
+/// are nearly equal.
+class WeightedMoments {
+ public:
+  void add(double value, double weight);
+  void merge(const WeightedMoments& other);
+
+  /// NaN where there is no weight.
+  double mean() const;
+  double rms() const;
+  double variance() const;
+  double standard_deviation() const;
+  /// NaN where there is no value.
+  double smallest() const {
+    return count_ > 0 ? smallest_ : std::numeric_limits<double>::quiet_NaN();
+  }
+  double largest() const {
+    return count_ > 0 ? largest_ : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(count_, smallest_, largest_, weight_, first_, second_);
+  }
+
+ private:
+  std::uint64_t count_ = 0;
+  double smallest_ = std::numeric_limits<double>::infinity();
+  double largest_ = -std::numeric_limits<double>::infinity();
+  ExactSum weight_, first_, second_;
+};
+
+}  // namespace atlasgauge

@@ -1,0 +1,71 @@
+#include "io/texture/image_info.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "io/error.hpp"
+#include "io/texture/image_module.hpp"
+#include "tests/support/temp_dir.hpp"
+
+namespace atlasgauge {
+namespace {
+
+/// 3x2 texels as uncompressed Netpbm: a header and six bytes.
+const std::string kGreyImage = "P5\n3 2\n255\nabcdef";
+
+class ImageInfoTest : public ::testing::Test {
+ protected:
+  /// The module lies beside this program or in the folder above, where the main program is.
+  void SetUp() override {
+    const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    const bool is_beside = std::filesystem::exists(folder / kImageModuleFile);
+    const auto module_folder = is_beside ? folder : folder.parent_path();
+    ASSERT_EQ(::setenv("ATLASGAUGE_MODULE_DIR", module_folder.c_str(), 1), 0);
+  }
+
+  std::string error_of(const std::string& path) {
+    try {
+      read_image_size(path);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInput);
+      return error.what();
+    }
+    return "";
+  }
+
+  TempDir dir_;
+};
+
+TEST_F(ImageInfoTest, ReadsTheSizeFromTheHeader) {
+  const ImageSize size = read_image_size(dir_.write("grey.pgm", kGreyImage));
+  EXPECT_EQ(size.width, 3U);
+  EXPECT_EQ(size.height, 2U);
+}
+
+TEST_F(ImageInfoTest, TheEndingOfTheNameDoesNotMatter) {
+  EXPECT_EQ(read_image_size(dir_.write("grey.png", kGreyImage)).width, 3U);
+  EXPECT_EQ(read_image_size(dir_.write("grey", kGreyImage)).width, 3U);
+}
+
+TEST_F(ImageInfoTest, ImagesThatCannotBeReadAreErrors) {
+  EXPECT_NE(error_of(dir_.write("empty.png", "")), "");
+  EXPECT_NE(error_of(dir_.write("text.jpg", "no image at all")), "");
+  EXPECT_NE(error_of((dir_.path() / "none.png").string()), "");
+  EXPECT_NE(error_of(dir_.path().string()), "");
+}
+
+TEST_F(ImageInfoTest, ImagesWithoutTexelsAreErrors) {
+  EXPECT_NE(error_of(dir_.write("flat.pgm", "P5\n0 2\n255\n")), "");
+}
+
+TEST_F(ImageInfoTest, HeadersCutAnywhereAreSizesOrErrors) {
+  for (std::size_t bytes = 0; bytes < kGreyImage.size(); ++bytes) {
+    error_of(dir_.write("cut.pgm", kGreyImage.substr(0, bytes)));
+  }
+}
+
+}  // namespace
+}  // namespace atlasgauge
