@@ -176,7 +176,8 @@ void LineParser::push_face(const Wedge& a, const Wedge& b, const Wedge& c) {
 std::uint32_t LineParser::vertex(std::int64_t index, std::uint32_t& marks) {
   constexpr auto kMaxIndex = static_cast<std::int64_t>(kMaxElements);
   if (index > 0 && index <= kMaxIndex) return static_cast<std::uint32_t>(index - 1);
-  const std::int64_t relative = index + static_cast<std::int64_t>(block_.positions.size());
+  const std::int64_t relative =
+      std::min<std::int64_t>(index, 0) + static_cast<std::int64_t>(block_.positions.size());
   if (index < 0 && fits_relative(relative)) {
     marks |= ObjBlock::kRelativeVertex;
     block_.has_relative = true;
