@@ -54,6 +54,9 @@ void describe(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("--progress", texts.progress, "progress on standard error")
       ->check(CLI::IsMember({"auto", "always", "never"}))
       ->type_name("auto|always|never");
+  app.add_flag("--estimate", options.estimate,
+               "print what a run would need of memory, scratch and time, from a sample of the "
+               "model, and do not run");
   app.add_flag("--strict", options.strict, "make every warning an error");
   app.add_flag("-q,--quiet", options.quiet, "print errors only");
   app.add_flag("-v,--verbose", options.verbose, "print what the run cost, stage by stage");

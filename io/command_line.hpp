@@ -26,6 +26,7 @@ struct Options {
   bool quiet = false;
   bool verbose = false;
   bool strict = false;
+  bool estimate = false;  ///< say what a run would cost instead of measuring
 };
 
 /// What a command line comes to: options, or a text to print instead of working (help, version).

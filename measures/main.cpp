@@ -20,8 +20,10 @@
 #include "io/texture/texture_slots.hpp"
 #include "io/warnings.hpp"
 #include "measures/base/measure_set.hpp"
+#include "measures/estimate_text.hpp"
 #include "measures/summary.hpp"
 #include "stream/engine/engine.hpp"
+#include "stream/estimate.hpp"
 #include "stream/memory_plan.hpp"
 #include "stream/pipeline.hpp"
 
@@ -47,11 +49,33 @@ bool shows_progress(const Options& options) {
   return options.progress == ProgressMode::kAlways || ::isatty(STDERR_FILENO) == 1;
 }
 
+MemoryPlan plan_for(const Options& options) {
+  return plan_memory(
+      {options.memory_bytes, options.engine_memory_bytes, options.block_bytes, options.threads},
+      usable_cpus());
+}
+
+/// Writes a JSON text where the user wants it; the text for people then goes beside it.
+void write_results(const Options& options, const Json& json, const std::string& text) {
+  if (options.json_path) write_file(*options.json_path, json.dump(1) + "\n");
+  std::FILE* const text_to = options.json_path == "-" ? stderr : stdout;
+  if (!options.quiet) fmt::print(text_to, "{}", text);
+}
+
+void estimate(const Options& options) {
+  if (options.json_path) check_writable(*options.json_path);
+  const MemoryPlan plan = plan_for(options);
+  const ModelGuess guess = guess_model(options.model);
+  const CostEstimate cost = estimate_cost(guess, plan);
+  write_results(options, json_of(guess, cost, plan), text_of(guess, cost, plan));
+  require_resources(guess, cost, plan, options.tmp_dir);
+}
+
 void measure(const Options& options) {
   if (options.json_path) check_writable(*options.json_path);
-  const Workers workers(options.threads > 0 ? options.threads : usable_cpus());
-  const MemoryPlan plan = plan_memory(
-      {options.memory_bytes, options.engine_memory_bytes, options.block_bytes}, workers.count());
+  const MemoryPlan plan = plan_for(options);
+  require_resources_for(options.model, plan, options.tmp_dir);
+  const Workers workers(plan.workers);
   MemoryBudget budget(plan.engine_bytes);
   Scratch scratch({options.tmp_dir, plan.block_bytes, plan.resident_bytes}, budget);
   ProgressBar bar(shows_progress(options));
@@ -73,10 +97,7 @@ void measure(const Options& options) {
   const Report report = measures.finish(facts);
 
   bar.clear();
-  if (options.json_path) write_file(*options.json_path, report.to_json().dump(1) + "\n");
-  const bool json_on_stdout = options.json_path == "-";
-  std::FILE* const summary_to = json_on_stdout ? stderr : stdout;
-  if (!options.quiet) fmt::print(summary_to, "{}", summary_of(facts, report));
+  write_results(options, report.to_json(), summary_of(facts, report));
   if (options.verbose) fmt::print(stderr, "{}", cost_of(engine, plan));
 }
 
@@ -86,7 +107,7 @@ int run(const std::vector<std::string>& arguments) {
     fmt::print("{}", *line.text);
     return 0;
   }
-  measure(line.options);
+  line.options.estimate ? estimate(line.options) : measure(line.options);
   return 0;
 }
 

@@ -22,8 +22,11 @@ constexpr std::uint64_t kLargestEngineBytes = 1024 * kMiB;
 constexpr std::uint64_t kSmallestEngineBytes = 2 * kMiB;
 constexpr std::uint64_t kSmallestBlockBytes = 4096;
 constexpr std::uint64_t kLargestBlockBytes = 1 * kMiB;
-/// Blocks that the engine's memory holds: enough for the buckets of one distribution.
-constexpr std::uint64_t kBlocksPerEngine = 256;
+/// Blocks that the engine's memory holds: enough for the buckets of one distribution, and for
+/// labels of as many faces as an index can number.
+constexpr std::uint64_t kBlocksPerEngine = 512;
+/// The least share of a thread when their number is not given.
+constexpr std::uint64_t kEngineBytesPerThread = 8 * kMiB;
 
 std::uint64_t engine_share(std::uint64_t limit_bytes, std::size_t workers) {
   if (limit_bytes < kFloorBytes) {
@@ -41,9 +44,17 @@ std::uint64_t engine_share(std::uint64_t limit_bytes, std::size_t workers) {
   return std::min(kLargestEngineBytes, limit_bytes - process_bytes);
 }
 
+std::size_t choose_threads(const MemoryWishes& wishes, std::uint64_t limit_bytes,
+                           std::size_t cpus) {
+  if (wishes.threads > 0) return wishes.threads;
+  const std::uint64_t rest_bytes = limit_bytes - std::min(limit_bytes, kProcessBytes);
+  const std::uint64_t affordable = rest_bytes / (kEngineBytesPerThread + kWorkerBytes);
+  return std::clamp<std::size_t>(affordable, 1, std::max<std::size_t>(1, cpus));
+}
+
 }  // namespace
 
-MemoryPlan plan_memory(const MemoryWishes& wishes, std::size_t workers) {
+MemoryPlan plan_memory(const MemoryWishes& wishes, std::size_t cpus) {
   MemoryPlan plan;
   if (wishes.limit_bytes) {
     plan.limit_bytes = *wishes.limit_bytes;
@@ -53,8 +64,9 @@ MemoryPlan plan_memory(const MemoryWishes& wishes, std::size_t workers) {
     plan.limit_bytes = limit.bytes / 10 * 8;
     plan.origin = "0.8 of " + limit.origin;
   }
+  plan.workers = choose_threads(wishes, plan.limit_bytes, cpus);
   plan.engine_bytes =
-      wishes.engine_bytes ? *wishes.engine_bytes : engine_share(plan.limit_bytes, workers);
+      wishes.engine_bytes ? *wishes.engine_bytes : engine_share(plan.limit_bytes, plan.workers);
   if (plan.engine_bytes < kSmallestEngineBytes) {
     throw Error(ErrorKind::kResource, "--engine-memory is too little; give at least " +
                                           format_bytes(kSmallestEngineBytes));

@@ -135,6 +135,7 @@ class CompressedSource : public ByteSource {
 
   std::uint64_t consumed_bytes() const override { return file_->consumed_bytes(); }
   std::uint64_t file_bytes() const override { return file_->file_bytes(); }
+  bool is_plain() const override { return false; }
 
  private:
   static constexpr bool kIsZstd = std::is_same_v<Decompressor, boost::iostreams::zstd_decompressor>;
@@ -167,6 +168,21 @@ std::unique_ptr<ByteSource> open_byte_source(const std::string& path) {
         path, std::move(file), bio::zstd_decompressor(kCompressedBytes));
   }
   return file;
+}
+
+std::size_t read_file_at(const std::string& path, std::uint64_t offset, char* to,
+                         std::size_t bytes) {
+  const FileDescriptor file(path);
+  std::size_t done = 0;
+  while (done < bytes) {
+    const ssize_t got =
+        ::pread(file.get(), to + done, bytes - done, static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw Error(ErrorKind::kInput, path, 0, "cannot read: " + errno_text());
+    if (got == 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  return done;
 }
 
 }  // namespace atlasgauge

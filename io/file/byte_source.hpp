@@ -17,10 +17,17 @@ class ByteSource {
   virtual std::uint64_t consumed_bytes() const = 0;
   /// Size of the file on disk; 0 if it has none (a pipe).
   virtual std::uint64_t file_bytes() const = 0;
+  /// Whether what is read are the bytes of the file as they lie there.
+  virtual bool is_plain() const { return true; }
 };
 
 /// Opens a plain, gzip'd or zstd'd file, told apart by its first bytes. Throws Error(kInput) for a
 /// missing or unreadable file, or a directory.
 std::unique_ptr<ByteSource> open_byte_source(const std::string& path);
+
+/// Fills up to `bytes` bytes from `offset` of a regular file, as they lie there; returns how many.
+/// Throws Error(kInput).
+std::size_t read_file_at(const std::string& path, std::uint64_t offset, char* to,
+                         std::size_t bytes);
 
 }  // namespace atlasgauge

@@ -78,9 +78,12 @@ Spill<Label> label_in_memory(const Engine& engine, Graph graph) {
   return labels.finish();
 }
 
+/// Blocks of the readers and writers beside the buckets.
+constexpr std::uint64_t kBlocksBeside = 5;
+
 /// Memory of one bucket a range of nodes, and of a few readers and writers beside them.
 std::uint64_t bucket_bytes(const Engine& engine, std::uint64_t nodes, std::uint64_t range_nodes) {
-  return ((nodes + range_nodes - 1) / range_nodes + 5) * engine.block_bytes();
+  return ((nodes + range_nodes - 1) / range_nodes + kBlocksBeside) * engine.block_bytes();
 }
 
 /// What a range remembers of a node until the labels of the roots are known: the root inside the
@@ -338,6 +341,14 @@ class StarRound {
   Spill<Hook> hooks_;
 };
 
+/// Half of the memory for the nodes of a range, the other half for the buckets of links: that
+/// serves the most nodes.
+std::uint64_t range_nodes(std::uint64_t memory_bytes, std::size_t block_bytes) {
+  const std::uint64_t beside_bytes = (kBlocksBeside + 1) * block_bytes;
+  return std::max<std::uint64_t>(
+      1024, (memory_bytes - std::min(memory_bytes, beside_bytes)) / 2 / RangeRound::kNodeBytes);
+}
+
 /// Runs the rounds. After a star round labels are right but no longer the smallest node.
 class Labelling {
  public:
@@ -347,19 +358,19 @@ class Labelling {
 
   Spill<Label> label(Graph graph, bool poor_locality) {
     if (fits(graph)) return label_in_memory(engine_, std::move(graph));
-    const std::uint64_t range_nodes = nodes_per_range();
+    const std::uint64_t per_range = nodes_per_range();
     std::optional<StarRound> star;
     if (poor_locality) {
       star_used_ = true;
-      star.emplace(engine_, graph.nodes, range_nodes, ++rounds_);
+      star.emplace(engine_, graph.nodes, per_range, ++rounds_);
       graph.links = star->contract(std::move(graph.links));
     }
     const std::uint64_t nodes = graph.nodes;
-    RangeRound round(engine_, std::move(graph), range_nodes);
+    RangeRound round(engine_, std::move(graph), per_range);
     Graph upper;
     {
       const Reservation memory = engine_.budget.reserve(
-          range_nodes * RangeRound::kNodeBytes + bucket_bytes(engine_, nodes, range_nodes),
+          per_range * RangeRound::kNodeBytes + bucket_bytes(engine_, nodes, per_range),
           "labelling by ranges");
       upper = round.contract();
     }
@@ -374,13 +385,8 @@ class Labelling {
     return bytes + 3 * engine_.block_bytes() <= engine_.budget.free_bytes();
   }
 
-  /// Half of the free memory for the nodes, the other half for the buckets of links: that serves
-  /// the most nodes, memory squared over 32 times the block size.
   std::uint64_t nodes_per_range() const {
-    const std::uint64_t free_bytes = engine_.budget.free_bytes();
-    const std::uint64_t beside_bytes = bucket_bytes(engine_, 1, 1);
-    return std::max<std::uint64_t>(
-        1024, (free_bytes - std::min(free_bytes, beside_bytes)) / 2 / RangeRound::kNodeBytes);
+    return range_nodes(engine_.budget.free_bytes(), engine_.block_bytes());
   }
 
   const Engine& engine_;
@@ -439,6 +445,13 @@ Spill<Label> label_nodes(const Engine& engine, Spill<Link> links, std::uint64_t 
   Labelling labelling(engine);
   Spill<Label> labels = labelling.label({nodes, std::move(links), std::nullopt, rule}, false);
   return labelling.needs_canonical() ? canonical(engine, std::move(labels)) : std::move(labels);
+}
+
+std::uint64_t label_capacity(std::uint64_t memory_bytes, std::size_t block_bytes) {
+  const std::uint64_t nodes = range_nodes(memory_bytes, block_bytes);
+  const std::uint64_t beside_bytes =
+      nodes * RangeRound::kNodeBytes + kBlocksBeside * std::uint64_t{block_bytes};
+  return nodes * ((memory_bytes - std::min(memory_bytes, beside_bytes)) / block_bytes);
 }
 
 std::uint64_t count_components(Spill<Label>& labels) {

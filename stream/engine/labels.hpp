@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "stream/engine/engine.hpp"
@@ -64,6 +65,10 @@ enum class LinkRule {
 /// of their smallest node, so the way back is a sequential zip.
 Spill<Label> label_nodes(const Engine& engine, Spill<Link> links, std::uint64_t nodes,
                          LinkRule rule);
+
+/// The nodes that label_nodes can serve when so much memory is free: memory squared over 32 times
+/// the block size.
+std::uint64_t label_capacity(std::uint64_t memory_bytes, std::size_t block_bytes);
 
 /// Components among labelled nodes, single nodes included.
 std::uint64_t count_components(Spill<Label>& labels);

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "io/error.hpp"
+#include "io/ids.hpp"
+#include "stream/engine/labels.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -12,13 +14,13 @@ namespace {
 constexpr std::uint64_t kMiB = 1 << 20;
 
 MemoryWishes limit_of(std::uint64_t bytes) {
-  return {.limit_bytes = bytes, .engine_bytes = {}, .block_bytes = {}};
+  return {.limit_bytes = bytes, .engine_bytes = {}, .block_bytes = {}, .threads = 0};
 }
 MemoryWishes engine_of(std::uint64_t bytes) {
-  return {.limit_bytes = 512 * kMiB, .engine_bytes = bytes, .block_bytes = {}};
+  return {.limit_bytes = 512 * kMiB, .engine_bytes = bytes, .block_bytes = {}, .threads = 0};
 }
 MemoryWishes block_of(std::uint64_t bytes) {
-  return {.limit_bytes = 512 * kMiB, .engine_bytes = {}, .block_bytes = bytes};
+  return {.limit_bytes = 512 * kMiB, .engine_bytes = {}, .block_bytes = bytes, .threads = 0};
 }
 
 std::string refusal_of(const MemoryWishes& wishes, std::size_t workers, ErrorKind kind) {
@@ -59,12 +61,32 @@ TEST(MemoryPlanTest, PoolIsAQuarterOfTheEngine) {
   EXPECT_EQ(plan_memory(engine_of(8 * kMiB), 1).resident_bytes, 2 * kMiB);
 }
 
-TEST(MemoryPlanTest, BlocksAreA256thOfTheEngine) {
-  EXPECT_EQ(plan_memory(engine_of(2 * kMiB), 1).block_bytes, 8192U);
-  EXPECT_EQ(plan_memory(engine_of(4 * kMiB - 1), 1).block_bytes, 8192U);
-  EXPECT_EQ(plan_memory(engine_of(4 * kMiB), 1).block_bytes, 16384U);
-  EXPECT_EQ(plan_memory(engine_of(256 * kMiB), 1).block_bytes, kMiB);
+TEST(MemoryPlanTest, BlocksAreA512thOfTheEngine) {
+  EXPECT_EQ(plan_memory(engine_of(2 * kMiB), 1).block_bytes, 4096U);
+  EXPECT_EQ(plan_memory(engine_of(8 * kMiB - 1), 1).block_bytes, 8192U);
+  EXPECT_EQ(plan_memory(engine_of(8 * kMiB), 1).block_bytes, 16384U);
+  EXPECT_EQ(plan_memory(engine_of(256 * kMiB), 1).block_bytes, kMiB / 2);
   EXPECT_EQ(plan_memory(engine_of(4096 * kMiB), 1).block_bytes, kMiB);
+}
+
+TEST(MemoryPlanTest, LabelsOfTheLargestModelFitInTheFloor) {
+  for (std::uint64_t mib = 256; mib < 2048; mib += 16) {
+    const MemoryPlan plan = plan_memory(limit_of(mib * kMiB), 2);
+    EXPECT_GE(label_capacity(plan.engine_bytes - plan.resident_bytes, plan.block_bytes),
+              kMaxElements)
+        << mib;
+  }
+}
+
+TEST(MemoryPlanTest, OneThreadPerCpuAsFarAsMemoryGoes) {
+  EXPECT_EQ(plan_memory(limit_of(1024 * kMiB), 16).workers, 16U);
+  EXPECT_EQ(plan_memory(limit_of(256 * kMiB), 128).workers, 10U);  // (256 - 152) / 10
+}
+
+TEST(MemoryPlanTest, ThreadsAskedForAreNotFewer) {
+  MemoryWishes wishes = limit_of(512 * kMiB);
+  wishes.threads = 100;
+  EXPECT_EQ(plan_memory(wishes, 2).workers, 100U);
 }
 
 TEST(MemoryPlanTest, BlocksOfAnyMultipleOf4096MayBeAskedFor) {
@@ -82,10 +104,13 @@ TEST(MemoryPlanTest, EngineBelowTwoMiBIsRefused) {
 }
 
 TEST(MemoryPlanTest, TooManyThreadsAreRefusedWithALimitThatWouldDo) {
-  const std::string text = refusal_of(limit_of(256 * kMiB), 100, ErrorKind::kResource);
+  MemoryWishes wishes = limit_of(256 * kMiB);
+  wishes.threads = 100;
+  const std::string text = refusal_of(wishes, 2, ErrorKind::kResource);
   EXPECT_NE(text.find("100 threads"), std::string::npos) << text;
   EXPECT_NE(text.find("416.0 MiB"), std::string::npos) << text;
-  EXPECT_NO_THROW(plan_memory(limit_of(416 * kMiB), 100));
+  wishes.limit_bytes = 416 * kMiB;
+  EXPECT_NO_THROW(plan_memory(wishes, 2));
 }
 
 TEST(MemoryPlanTest, OriginSaysWhatSetTheLimit) {

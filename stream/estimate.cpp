@@ -1,0 +1,246 @@
+#include "stream/estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <unordered_set>
+#include <vector>
+
+#include "io/bytes.hpp"
+#include "io/error.hpp"
+#include "io/obj/obj_sample.hpp"
+#include "io/warnings.hpp"
+#include "stream/engine/labels.hpp"
+#include "stream/engine/page_cache.hpp"
+#include "stream/groups.hpp"
+#include "stream/mesh/face_stream.hpp"
+#include "stream/mesh/mesh_store.hpp"
+#include "stream/mesh/records.hpp"
+
+namespace atlasgauge {
+namespace {
+
+constexpr double kMiB = 1 << 20;
+
+/// What the process holds without the engine, and what the image library adds, as measured.
+constexpr double kProgramBytes = 6 * kMiB;
+constexpr double kImageLibraryBytes = 100 * kMiB;
+/// Of the engine's working memory, what a long run has touched at its peak, as measured: groups
+/// are sorted in buckets planned two thirds full.
+constexpr double kTouched = 0.8;
+
+/// Blocks that stages have begun, and fill or not.
+constexpr std::uint64_t kOpenBlocks = 8;
+
+/// Estimates may be wrong by this factor; only what is beyond it is refused.
+constexpr double kTolerance = 1.5;
+
+/// A model of whose text only the beginning is known, all of it vertices, is taken for a closed
+/// surface, with twice as many faces as vertices, an eighth of the texture coordinates doubled at
+/// seams, and lines of usual lengths.
+constexpr double kFacesPerVertex = 2;
+constexpr double kTexCoordsPerVertex = 1.125;
+constexpr double kFaceLineBytes = 36;
+constexpr double kTexCoordLineBytes = 22;
+
+/// No statement of an OBJ needs more scratch than the face of "f 1 2 3 4...", 2 bytes of text each.
+constexpr double kMostScratchPerTextByte = 120;
+/// Of the compression of text, hardly ever reached.
+constexpr double kMostTextPerFileByte = 40;
+
+/// Bytes of table pages that faces name, counted anew for every part of a sample.
+class PageCounter {
+ public:
+  void add(const FaceRecord& face) {
+    for (int k = 0; k < 3; ++k) {
+      note(positions_, raw(face.v[k]) / PageLayout<Position>::kRecords);
+      if (face.t[k] != kNone<TexCoordId>) {
+        note(texcoords_, raw(face.t[k]) / PageLayout<TexCoord>::kRecords);
+      }
+    }
+  }
+
+  double bytes() const {
+    return static_cast<double>(positions_.size() * PageLayout<Position>::kBytes +
+                               texcoords_.size() * PageLayout<TexCoord>::kBytes);
+  }
+
+ private:
+  static void note(std::unordered_set<std::size_t>& pages, std::size_t page) { pages.insert(page); }
+
+  std::unordered_set<std::size_t> positions_, texcoords_;
+};
+
+/// Whether the libraries of a model name an image that is there.
+bool reads_images(const std::string& path, const std::vector<std::string>& mtllib_lines) {
+  bool read = false;
+  const ImageProbe probe = [&](const std::string&) {
+    read = true;
+    return ImageSize{1, 1};
+  };
+  Warnings unheard([](const std::string&) {});
+  resolve_textures(path, mtllib_lines, {}, std::nullopt, probe, unheard);
+  return read;
+}
+
+/// Scales what the beginning of a text held up to the whole.
+void extrapolate(ModelGuess& guess, double sampled_bytes) {
+  guess.is_reliable = false;
+  if (guess.faces > 0) {
+    const double scale = guess.text_bytes / sampled_bytes;
+    guess.positions *= scale;
+    guess.texcoords *= scale;
+    guess.faces *= scale;
+    return;
+  }
+  if (guess.positions == 0) return;
+  const double vertex_bytes = sampled_bytes / guess.positions +
+                              kTexCoordsPerVertex * kTexCoordLineBytes +
+                              kFacesPerVertex * kFaceLineBytes;
+  guess.positions = guess.text_bytes / vertex_bytes;
+  guess.texcoords = kTexCoordsPerVertex * guess.positions;
+  guess.faces = kFacesPerVertex * guess.positions;
+}
+
+/// What a stage keeps in scratch, and the memory it would work with if there were enough.
+struct StageNeed {
+  double scratch_bytes;
+  double working_bytes;
+};
+
+/// The stages that need most; the records are those of the stages' own files.
+std::vector<StageNeed> stage_needs(const ModelGuess& guess) {
+  const double v = guess.positions;
+  const double t = guess.texcoords;
+  const double f = guess.faces;
+  const double tables = v * sizeof(Position) + t * sizeof(TexCoord);
+  const double model = tables + f * sizeof(FaceRecord);
+  const double half_edges = 3 * f * sizeof(HalfEdge);
+  // The smallest angle, and where there are UVs distortion, conformality and density.
+  const double samples = f * sizeof(Sample) * (t > 0 ? 4 : 1);
+  const double kept = f * (sizeof(FaceRecord) + sizeof(FaceFacts)) + samples;
+  const double placed = v * (sizeof(Position) + sizeof(VertexId) + 4);
+  return {
+      {model + placed, 3 * placed},                    // weld: table at most half full
+      {tables + kept + half_edges, tables},            // triangles
+      {kept + half_edges, 2 * half_edges},             // edges: loaded and sorted
+      {kept + 3 * f * sizeof(Link) + 36 * f, 72 * f},  // stars: three corners a face
+      {tables + f * 8, v * 8},                         // labels of vertices
+  };
+}
+
+/// Measured on a million faces and more, in nanoseconds: a byte of text, a vertex, a face, and a
+/// face whose corners must be gathered.
+double cpu_seconds(const ModelGuess& guess) {
+  constexpr double kByte = 1.0, kVertex = 100, kFace = 1700, kScatteredFace = 2500;
+  constexpr double kScatteredBytes = 600;
+  const double face = guess.loaded_bytes_per_face > kScatteredBytes ? kScatteredFace : kFace;
+  return 1e-9 * (kByte * guess.text_bytes + kVertex * guess.positions + face * guess.faces);
+}
+
+double threads_gain(std::size_t workers) {
+  constexpr double kSerialShare = 0.4;  // reading order, distributions, labels
+  return 1 / (kSerialShare + (1 - kSerialShare) / static_cast<double>(workers));
+}
+
+std::optional<std::uint64_t> free_space(const std::string& directory) {
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(directory, error);
+  if (error) return std::nullopt;
+  return space.available;
+}
+
+std::uint64_t least(double bytes) {
+  return static_cast<std::uint64_t>(bytes / kTolerance);
+}
+
+/// A bound for any text of this many bytes on disk.
+double most_scratch_bytes(const std::string& path) {
+  std::error_code error;
+  const auto file_bytes = static_cast<double>(std::filesystem::file_size(path, error));
+  return error ? 0 : file_bytes * kMostTextPerFileByte * kMostScratchPerTextByte;
+}
+
+}  // namespace
+
+ModelGuess guess_model(const std::string& path) {
+  ModelGuess guess;
+  double sampled_faces = 0;
+  double loaded_bytes = 0;
+  const ObjSampling sampling = sample_obj(path, [&](double weight, const MeshBatch& batch) {
+    guess.positions += weight * static_cast<double>(batch.positions.size());
+    guess.texcoords += weight * static_cast<double>(batch.texcoords.size());
+    guess.faces += weight * static_cast<double>(batch.faces.size());
+    PageCounter pages;
+    for (const FaceRecord& face : batch.faces) pages.add(face);
+    loaded_bytes += pages.bytes();
+    sampled_faces += static_cast<double>(batch.faces.size());
+  });
+  guess.text_bytes = sampling.text_bytes;
+  guess.is_whole = sampling.coverage == ObjSampling::Coverage::kWhole;
+  if (sampling.coverage == ObjSampling::Coverage::kBeginning) {
+    extrapolate(guess, sampling.sampled_bytes);
+  }
+  if (sampled_faces > 0) guess.loaded_bytes_per_face = loaded_bytes / sampled_faces;
+  guess.reads_images = reads_images(path, sampling.mtllib_lines);
+  return guess;
+}
+
+CostEstimate estimate_cost(const ModelGuess& guess, const MemoryPlan& plan) {
+  const auto pool = static_cast<double>(plan.resident_bytes);
+  const auto working_most = kTouched * static_cast<double>(plan.engine_bytes - plan.resident_bytes);
+  double scratch = 0;
+  double resident = 0;
+  const auto open_blocks_bytes = static_cast<double>(kOpenBlocks * plan.block_bytes);
+  for (const StageNeed& need : stage_needs(guess)) {
+    scratch = std::max(scratch, need.scratch_bytes);
+    resident = std::max(
+        resident, std::min(need.scratch_bytes, pool) + std::min(need.working_bytes, working_most));
+  }
+  resident += kProgramBytes + (guess.reads_images ? kImageLibraryBytes : 0);
+  CostEstimate cost;
+  scratch += open_blocks_bytes;
+  cost.scratch_bytes = static_cast<std::uint64_t>(scratch);
+  cost.scratch_file_bytes = static_cast<std::uint64_t>(std::max(0.0, scratch - pool));
+  cost.resident_bytes = static_cast<std::uint64_t>(resident);
+  cost.cpu_seconds = cpu_seconds(guess);
+  cost.wall_seconds = cost.cpu_seconds / threads_gain(plan.workers);
+  return cost;
+}
+
+void require_resources(const ModelGuess& guess, const CostEstimate& cost, const MemoryPlan& plan,
+                       const std::string& directory) {
+  const std::uint64_t labels =
+      label_capacity(plan.engine_bytes - plan.resident_bytes, plan.block_bytes);
+  const std::uint64_t nodes = least(std::max(guess.faces, guess.positions));
+  if (nodes > labels) {
+    throw Error(ErrorKind::kResource,
+                fmt::format("a model of about {:.0f} million faces or vertices needs more memory "
+                            "than {} with {} threads; give {} or more",
+                            static_cast<double>(nodes) * 1e-6, format_bytes(plan.limit_bytes),
+                            plan.workers, format_bytes(2 * plan.limit_bytes)));
+  }
+  const std::optional<std::uint64_t> free_bytes = free_space(directory);
+  if (!free_bytes || least(static_cast<double>(cost.scratch_file_bytes)) <= *free_bytes) return;
+  throw Error(ErrorKind::kResource, directory, 0,
+              fmt::format("about {} of scratch will be needed, but {} are free; free space there "
+                          "or give another directory with --tmp-dir",
+                          format_bytes(cost.scratch_file_bytes), format_bytes(*free_bytes)));
+}
+
+void require_resources_for(const std::string& path, const MemoryPlan& plan,
+                           const std::string& directory) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return;
+  const std::optional<std::uint64_t> free_bytes = free_space(directory);
+  const double bound = most_scratch_bytes(path);
+  const bool fits_disk = !free_bytes || bound <= static_cast<double>(*free_bytes);
+  if (fits_disk && bound <= 1e9) return;
+  const ModelGuess guess = guess_model(path);
+  require_resources(guess, estimate_cost(guess, plan), plan, directory);
+}
+
+}  // namespace atlasgauge

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "io/texture/texture_slots.hpp"
+#include "stream/memory_plan.hpp"
+
+namespace atlasgauge {
+
+/// What a model seems to hold, from a sample of its text.
+struct ModelGuess {
+  double positions = 0;
+  double texcoords = 0;
+  double faces = 0;
+  double text_bytes = 0;
+  /// Bytes of vertex tables that a cache loads for a face: tens where the file is written region by
+  /// region, tens of thousands where faces name vertices in random order.
+  double loaded_bytes_per_face = 0;
+  bool reads_images = false;  ///< a material names an image that exists
+  bool is_whole = false;      ///< counted, not sampled
+  bool is_reliable = true;    ///< false for a compressed model of which only the beginning was seen
+};
+
+/// What a run will cost, by the sizes of the records that its stages keep. Made to be within a
+/// factor of 1.5 of what the run then uses where the guess is reliable.
+struct CostEstimate {
+  std::uint64_t scratch_bytes = 0;       ///< alive at once, in memory and on disk
+  std::uint64_t scratch_file_bytes = 0;  ///< of these, on disk
+  std::uint64_t resident_bytes = 0;      ///< peak of the process
+  double cpu_seconds = 0;                ///< on a machine of 2020 or so
+  double wall_seconds = 0;
+};
+
+/// Reads at most 64 MiB of the model's text, and its material libraries.
+ModelGuess guess_model(const std::string& path);
+
+CostEstimate estimate_cost(const ModelGuess& guess, const MemoryPlan& plan);
+
+/// Throws Error(kResource) when even a third less than the estimate is more than the machine has:
+/// free space for scratch in `directory`, or memory in the plan; the text names what would do.
+void require_resources(const ModelGuess& guess, const CostEstimate& cost, const MemoryPlan& plan,
+                       const std::string& directory);
+
+/// The same before a run, at no cost where the size of the file alone shows that all is well.
+void require_resources_for(const std::string& path, const MemoryPlan& plan,
+                           const std::string& directory);
+
+}  // namespace atlasgauge
