@@ -10,8 +10,10 @@
 #include <random>
 #include <utility>
 
+#include "io/mesh_batch.hpp"
 #include "stream/engine/gather.hpp"
 #include "stream/engine/labels.hpp"
+#include "stream/engine/page_cache.hpp"
 #include "stream/engine/quantiles.hpp"
 #include "stream/engine/sort_spill.hpp"
 #include "tests/support/engine_fixture.hpp"
@@ -110,6 +112,21 @@ TEST(ResidentMemoryTest, LabelsOfManyRanges) {
     auto links = many<Link>(engine, kNodes - 1, [](std::uint32_t i) { return Link(i, i + 1); });
     exit_by_growth(engine,
                    [&] { label_nodes(engine, std::move(links), kNodes, LinkRule::kManifoldOnly); });
+  });
+}
+
+TEST(ResidentMemoryTest, CacheOfManyPages) {
+  SKIP_IF_SANITIZED;
+  EXPECT_WITHIN_BUDGET([] {
+    constexpr std::uint64_t kCacheBytes = 8 << 20;
+    TestEngine engine({.budget_bytes = kCacheBytes});
+    auto table = many<Position>(engine, 1000000, [](std::uint32_t i) {
+      return Position{1.0 * i, 0, 0};
+    });
+    exit_by_growth(engine, [&] {
+      PageCache<Position> cache(table, kCacheBytes);
+      for (std::uint32_t i = 0; i < 1000000; ++i) cache.at(i);
+    });
   });
 }
 
