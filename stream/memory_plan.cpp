@@ -25,20 +25,21 @@ constexpr std::uint64_t kLargestBlockBytes = 1 * kMiB;
 /// Blocks that the engine's memory holds: enough for the buckets of one distribution.
 constexpr std::uint64_t kBlocksPerEngine = 256;
 
-std::uint64_t engine_share(std::uint64_t limit_bytes, std::size_t workers) {
-  if (limit_bytes < kFloorBytes) {
-    throw Error(ErrorKind::kResource, "--memory " + format_bytes(limit_bytes) +
-                                          " is too little; give at least " +
-                                          format_bytes(kFloorBytes));
+std::uint64_t engine_share(const MemoryPlan& plan, std::size_t workers) {
+  const std::string limit =
+      "a memory limit of " + format_bytes(plan.limit_bytes) + " (" + plan.origin + ")";
+  if (plan.limit_bytes < kFloorBytes) {
+    throw Error(ErrorKind::kResource, limit + " is too little; give at least " +
+                                          format_bytes(kFloorBytes) + " with --memory");
   }
   const std::uint64_t process_bytes = kProcessBytes + workers * kWorkerBytes;
-  if (process_bytes + kSmallestEngineBytes > limit_bytes) {
-    throw Error(ErrorKind::kResource, "--memory " + format_bytes(limit_bytes) +
-                                          " is too little for " + std::to_string(workers) +
-                                          " threads; give fewer threads or at least " +
-                                          format_bytes(process_bytes + 64 * kMiB));
+  if (process_bytes + kSmallestEngineBytes > plan.limit_bytes) {
+    throw Error(ErrorKind::kResource, limit + " is too little for " + std::to_string(workers) +
+                                          " threads; give fewer with --threads, or at least " +
+                                          format_bytes(process_bytes + 64 * kMiB) +
+                                          " with --memory");
   }
-  return std::min(kLargestEngineBytes, limit_bytes - process_bytes);
+  return std::min(kLargestEngineBytes, plan.limit_bytes - process_bytes);
 }
 
 }  // namespace
@@ -53,8 +54,7 @@ MemoryPlan plan_memory(const MemoryWishes& wishes, std::size_t workers) {
     plan.limit_bytes = limit.bytes / 10 * 8;
     plan.origin = "0.8 of " + limit.origin;
   }
-  plan.engine_bytes =
-      wishes.engine_bytes ? *wishes.engine_bytes : engine_share(plan.limit_bytes, workers);
+  plan.engine_bytes = wishes.engine_bytes ? *wishes.engine_bytes : engine_share(plan, workers);
   if (plan.engine_bytes < kSmallestEngineBytes) {
     throw Error(ErrorKind::kResource, "--engine-memory is too little; give at least " +
                                           format_bytes(kSmallestEngineBytes));
