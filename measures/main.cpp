@@ -1,11 +1,12 @@
 // The program: what the command line asks for, as one flow from a model to a report. With
 // stream/pipeline.cpp this is where the folders are put together; nothing else prints or exits.
 
-#include <fmt/format.h>
+#include <fcntl.h>
 #include <malloc.h>
 #include <sched.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -42,6 +43,24 @@ void return_freed_memory() {
   ::mallopt(M_ARENA_MAX, 2);
 }
 
+/// A closed standard stream stays closed: no file that is opened later gets its number, to be
+/// written to by mistake. Writing to it fails.
+void hold_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);
+  }
+}
+
+/// A file that may grow no larger is an error with a message, not a signal.
+void let_large_files_fail() {
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+/// Standard error takes what it can; no run fails for it.
+void remark(const char* text) {
+  std::fputs(text, stderr);
+}
+
 bool shows_progress(const Options& options) {
   if (options.quiet || options.progress == ProgressMode::kNever) return false;
   return options.progress == ProgressMode::kAlways || ::isatty(STDERR_FILENO) == 1;
@@ -75,41 +94,65 @@ void measure(const Options& options) {
   bar.clear();
   if (options.json_path) write_file(*options.json_path, report.to_json().dump(1) + "\n");
   const bool json_on_stdout = options.json_path == "-";
-  std::FILE* const summary_to = json_on_stdout ? stderr : stdout;
-  if (!options.quiet) fmt::print(summary_to, "{}", summary_of(facts, report));
-  if (options.verbose) fmt::print(stderr, "{}", cost_of(engine, plan));
+  if (!options.quiet) {
+    const std::string summary = summary_of(facts, report);
+    json_on_stdout ? remark(summary.c_str()) : write_file("-", summary);
+  }
+  if (options.verbose) remark(cost_of(engine, plan).c_str());
 }
 
 int run(const std::vector<std::string>& arguments) {
   const CommandLine line = parse_command_line(arguments);
   if (line.text) {
-    fmt::print("{}", *line.text);
+    write_file("-", *line.text);
     return 0;
   }
   measure(line.options);
   return 0;
 }
 
-int fail(ErrorKind kind, const std::string& text) {
-  fmt::print(stderr, "atlasgauge: {}\n", text);
+/// Needs no memory, as there may be none.
+int fail(ErrorKind kind, const char* text) {
+  remark("atlasgauge: ");
+  remark(text);
+  remark("\n");
   return static_cast<int>(kind);
+}
+
+/// Tells what is being caught; returns the exit code.
+int tell_caught() noexcept {
+  try {
+    throw;
+  } catch (const Error& error) {
+    return fail(error.kind(), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::kResource,
+                "the system gives no more memory; free some, or give less with --memory");
+  } catch (const std::exception& error) {
+    remark("atlasgauge: internal error, please report it\n");
+    return fail(ErrorKind::kInternal, error.what());
+  } catch (...) {
+    return fail(ErrorKind::kInternal, "internal error, please report it");
+  }
+}
+
+/// For errors where none can pass: libraries allocate even in destructors.
+[[noreturn]] void end_at_once() noexcept {
+  const bool caught = std::current_exception() != nullptr;
+  ::_exit(caught ? tell_caught() : fail(ErrorKind::kInternal, "internal error, please report it"));
 }
 
 }  // namespace
 }  // namespace atlasgauge
 
 int main(int argc, char** argv) {
-  using atlasgauge::ErrorKind;
+  std::set_terminate(atlasgauge::end_at_once);
   try {
+    atlasgauge::hold_closed_streams();
+    atlasgauge::let_large_files_fail();
     atlasgauge::return_freed_memory();
     return atlasgauge::run(std::vector<std::string>(argv + 1, argv + argc));
-  } catch (const atlasgauge::Error& error) {
-    return atlasgauge::fail(error.kind(), error.what());
-  } catch (const std::bad_alloc&) {
-    return atlasgauge::fail(ErrorKind::kResource,
-                            "the system gives no more memory; lower --memory or free some");
-  } catch (const std::exception& error) {
-    return atlasgauge::fail(ErrorKind::kInternal,
-                            std::string("internal error, please report it: ") + error.what());
+  } catch (...) {
+    return atlasgauge::tell_caught();
   }
 }
