@@ -123,7 +123,6 @@ void Scratch::transfer_all(std::size_t bytes, const char* what, Transfer transfe
     const ssize_t n = transfer(done);
     if (n > 0) {
       done += static_cast<std::size_t>(n);
-      if (done % kAlignment != 0) leave_direct_io();
     } else if (n < 0 && errno == EINVAL && std::exchange(may_be_misaligned, false)) {
       leave_direct_io();
     } else if (n == 0 || errno != EINTR) {
@@ -135,8 +134,8 @@ void Scratch::transfer_all(std::size_t bytes, const char* what, Transfer transfe
   }
 }
 
-/// A transfer that stopped between two units of direct I/O goes on by ordinary I/O. So does one
-/// whose file system wants larger units.
+/// Ordinary I/O from here on: a transfer stopped between two units of direct I/O, or the file
+/// system wants larger units.
 void Scratch::leave_direct_io() const {
   ::fcntl(file_.get(), F_SETFL, ::fcntl(file_.get(), F_GETFL) & ~O_DIRECT);
 }
