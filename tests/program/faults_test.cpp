@@ -444,7 +444,7 @@ TEST_F(FaultsTest, FullStandardOutputIsAnError) {
 TEST_F(FaultsTest, ClosedStandardOutputIsAnErrorAndNoFileTakesItsPlace) {
   ChildSetup child = setup({.report = "-"});
   child.closed = {STDIN_FILENO, STDOUT_FILENO};  // the model's number and the scratch file's
-  expect_refusal(Child(child).wait(), 4, "standard output: cannot write");
+  expect_refusal(Child(child).wait(), 4, "standard output: cannot write: Bad file descriptor");
 }
 
 TEST_F(FaultsTest, ClosedStandardInputAndErrorDoNoHarm) {
