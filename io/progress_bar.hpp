@@ -1,13 +1,13 @@
 #pragma once
 
-#include <cstdio>
 #include <mutex>
 #include <string>
 
 namespace atlasgauge {
 
 /// One line on standard error that shows how far a stage is, rewritten in place. Other messages go
-/// through message(), so that they do not land in the bar. Thread-safe.
+/// through message(), so that they do not land in the bar. Nothing fails when standard error does.
+/// Thread-safe.
 class ProgressBar {
  public:
   explicit ProgressBar(bool shown) : shown_(shown) {}
@@ -15,12 +15,12 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  void update(const std::string& stage, double fraction);
+  void update(const std::string& stage, double fraction) noexcept;
   void message(const std::string& text);
-  void clear();
+  void clear() noexcept;
 
  private:
-  void erase_line();
+  void erase_line() noexcept;
 
   const bool shown_;
   bool drawn_ = false;

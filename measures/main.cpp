@@ -1,9 +1,6 @@
 // The program: what the command line asks for, as one flow from a model to a report. With
 // stream/pipeline.cpp this is where the folders are put together; nothing else prints or exits.
 
-#include <fmt/format.h>
-#include <malloc.h>
-#include <sched.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -21,6 +18,7 @@
 #include "io/warnings.hpp"
 #include "measures/base/measure_set.hpp"
 #include "measures/estimate_text.hpp"
+#include "measures/process.hpp"
 #include "measures/summary.hpp"
 #include "stream/engine/engine.hpp"
 #include "stream/estimate.hpp"
@@ -30,18 +28,9 @@
 namespace atlasgauge {
 namespace {
 
-std::size_t usable_cpus() {
-  cpu_set_t cpus;
-  CPU_ZERO(&cpus);
-  if (::sched_getaffinity(0, sizeof(cpus), &cpus) != 0) return 1;
-  return static_cast<std::size_t>(CPU_COUNT(&cpus));
-}
-
-/// Large buffers go back to the system when they are freed: resident memory is what the limit is
-/// about, and the allocator's habit of keeping them would break it.
-void return_freed_memory() {
-  ::mallopt(M_MMAP_THRESHOLD, 256 << 10);
-  ::mallopt(M_ARENA_MAX, 2);
+/// Standard error takes what it can; no run fails for it.
+void remark(const char* text) {
+  std::fputs(text, stderr);
 }
 
 bool shows_progress(const Options& options) {
@@ -58,8 +47,8 @@ MemoryPlan plan_for(const Options& options) {
 /// Writes a JSON text where the user wants it; the text for people then goes beside it.
 void write_results(const Options& options, const Json& json, const std::string& text) {
   if (options.json_path) write_file(*options.json_path, json.dump(1) + "\n");
-  std::FILE* const text_to = options.json_path == "-" ? stderr : stdout;
-  if (!options.quiet) fmt::print(text_to, "{}", text);
+  if (options.quiet) return;
+  options.json_path == "-" ? remark(text.c_str()) : write_file("-", text);
 }
 
 void estimate(const Options& options) {
@@ -98,39 +87,59 @@ void measure(const Options& options) {
 
   bar.clear();
   write_results(options, report.to_json(), summary_of(facts, report));
-  if (options.verbose) fmt::print(stderr, "{}", cost_of(engine, plan));
+  if (options.verbose) remark(cost_of(engine, plan).c_str());
 }
 
 int run(const std::vector<std::string>& arguments) {
   const CommandLine line = parse_command_line(arguments);
   if (line.text) {
-    fmt::print("{}", *line.text);
+    write_file("-", *line.text);
     return 0;
   }
   line.options.estimate ? estimate(line.options) : measure(line.options);
   return 0;
 }
 
-int fail(ErrorKind kind, const std::string& text) {
-  fmt::print(stderr, "atlasgauge: {}\n", text);
+/// Needs no memory, as there may be none.
+int fail(ErrorKind kind, const char* text) {
+  remark("atlasgauge: ");
+  remark(text);
+  remark("\n");
   return static_cast<int>(kind);
+}
+
+/// Tells what is being caught; returns the exit code.
+int tell_caught() noexcept {
+  try {
+    throw;
+  } catch (const Error& error) {
+    return fail(error.kind(), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::kResource,
+                "the system gives no more memory; free some, or give less with --memory");
+  } catch (const std::exception& error) {
+    remark("atlasgauge: internal error, please report it\n");
+    return fail(ErrorKind::kInternal, error.what());
+  } catch (...) {
+    return fail(ErrorKind::kInternal, "internal error, please report it");
+  }
+}
+
+/// For errors where none can pass: libraries allocate even in destructors.
+[[noreturn]] void end_at_once() noexcept {
+  const bool caught = std::current_exception() != nullptr;
+  ::_exit(caught ? tell_caught() : fail(ErrorKind::kInternal, "internal error, please report it"));
 }
 
 }  // namespace
 }  // namespace atlasgauge
 
 int main(int argc, char** argv) {
-  using atlasgauge::ErrorKind;
+  std::set_terminate(atlasgauge::end_at_once);
   try {
-    atlasgauge::return_freed_memory();
+    atlasgauge::prepare_process();
     return atlasgauge::run(std::vector<std::string>(argv + 1, argv + argc));
-  } catch (const atlasgauge::Error& error) {
-    return atlasgauge::fail(error.kind(), error.what());
-  } catch (const std::bad_alloc&) {
-    return atlasgauge::fail(ErrorKind::kResource,
-                            "the system gives no more memory; lower --memory or free some");
-  } catch (const std::exception& error) {
-    return atlasgauge::fail(ErrorKind::kInternal,
-                            std::string("internal error, please report it: ") + error.what());
+  } catch (...) {
+    return atlasgauge::tell_caught();
   }
 }

@@ -28,20 +28,21 @@ constexpr std::uint64_t kBlocksPerEngine = 512;
 /// The least share of a thread when their number is not given.
 constexpr std::uint64_t kEngineBytesPerThread = 8 * kMiB;
 
-std::uint64_t engine_share(std::uint64_t limit_bytes, std::size_t workers) {
-  if (limit_bytes < kFloorBytes) {
-    throw Error(ErrorKind::kResource, "--memory " + format_bytes(limit_bytes) +
-                                          " is too little; give at least " +
-                                          format_bytes(kFloorBytes));
+std::uint64_t engine_share(const MemoryPlan& plan) {
+  const std::string limit =
+      "a memory limit of " + format_bytes(plan.limit_bytes) + " (" + plan.origin + ")";
+  if (plan.limit_bytes < kFloorBytes) {
+    throw Error(ErrorKind::kResource, limit + " is too little; give at least " +
+                                          format_bytes(kFloorBytes) + " with --memory");
   }
-  const std::uint64_t process_bytes = kProcessBytes + workers * kWorkerBytes;
-  if (process_bytes + kSmallestEngineBytes > limit_bytes) {
-    throw Error(ErrorKind::kResource, "--memory " + format_bytes(limit_bytes) +
-                                          " is too little for " + std::to_string(workers) +
-                                          " threads; give fewer threads or at least " +
-                                          format_bytes(process_bytes + 64 * kMiB));
+  const std::uint64_t process_bytes = kProcessBytes + plan.workers * kWorkerBytes;
+  if (process_bytes + kSmallestEngineBytes > plan.limit_bytes) {
+    throw Error(ErrorKind::kResource, limit + " is too little for " + std::to_string(plan.workers) +
+                                          " threads; give fewer with --threads, or at least " +
+                                          format_bytes(process_bytes + 64 * kMiB) +
+                                          " with --memory");
   }
-  return std::min(kLargestEngineBytes, limit_bytes - process_bytes);
+  return std::min(kLargestEngineBytes, plan.limit_bytes - process_bytes);
 }
 
 std::size_t choose_threads(const MemoryWishes& wishes, std::uint64_t limit_bytes,
@@ -65,8 +66,7 @@ MemoryPlan plan_memory(const MemoryWishes& wishes, std::size_t cpus) {
     plan.origin = "0.8 of " + limit.origin;
   }
   plan.workers = choose_threads(wishes, plan.limit_bytes, cpus);
-  plan.engine_bytes =
-      wishes.engine_bytes ? *wishes.engine_bytes : engine_share(plan.limit_bytes, plan.workers);
+  plan.engine_bytes = wishes.engine_bytes ? *wishes.engine_bytes : engine_share(plan);
   if (plan.engine_bytes < kSmallestEngineBytes) {
     throw Error(ErrorKind::kResource, "--engine-memory is too little; give at least " +
                                           format_bytes(kSmallestEngineBytes));

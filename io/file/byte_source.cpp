@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "io/error.hpp"
+#include "io/file/descriptor.hpp"
 #include "io/file/zstd_frames.hpp"
 
 namespace atlasgauge {
@@ -23,29 +24,14 @@ namespace {
 constexpr std::size_t kMagicBytes = 4;
 constexpr std::streamsize kCompressedBytes = 256 << 10;
 
-class FileDescriptor {
- public:
-  explicit FileDescriptor(const std::string& path)
-      : fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (fd_ < 0) throw Error(ErrorKind::kInput, path, 0, "cannot open: " + errno_text());
-  }
-  ~FileDescriptor() { ::close(fd_); }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
 /// A file as it lies on disk. Its first bytes can be looked at before they are read, which works
 /// for pipes too.
 class PlainSource : public ByteSource {
  public:
-  explicit PlainSource(const std::string& path) : path_(path), fd_(path) {
-    struct stat status {};
-    if (::fstat(fd_.get(), &status) != 0) fail("cannot read: " + errno_text());
+  explicit PlainSource(const std::string& path)
+      : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (!file_) fail("cannot open: " + errno_text());
+    const struct stat status = status_now();
     if (S_ISDIR(status.st_mode)) fail("found a directory where a file is expected");
     if (S_ISREG(status.st_mode)) file_bytes_ = static_cast<std::uint64_t>(status.st_size);
     while (magic_bytes_ < kMagicBytes) {
@@ -72,10 +58,31 @@ class PlainSource : public ByteSource {
  private:
   std::size_t read_file(char* to, std::size_t bytes) {
     for (;;) {
-      const ssize_t got = ::read(fd_.get(), to, bytes);
-      if (got >= 0) return static_cast<std::size_t>(got);
+      const ssize_t got = ::read(file_.get(), to, bytes);
+      if (got == 0 && bytes > 0) check_size_kept();
+      if (got >= 0) {
+        read_bytes_ += static_cast<std::uint64_t>(got);
+        return static_cast<std::size_t>(got);
+      }
       if (errno != EINTR) fail("cannot read: " + errno_text());
     }
+  }
+
+  struct stat status_now() const {
+    struct stat status {};
+    if (::fstat(file_.get(), &status) != 0) fail("cannot read: " + errno_text());
+    return status;
+  }
+
+  /// At its end: what was read is no model if someone was writing it.
+  void check_size_kept() const {
+    const struct stat status = status_now();
+    if (!S_ISREG(status.st_mode)) return;
+    const auto bytes_now = static_cast<std::uint64_t>(status.st_size);
+    if (bytes_now == file_bytes_ && read_bytes_ >= file_bytes_) return;
+    fail("it had " + std::to_string(file_bytes_) + " bytes when opened, but ended after " +
+         std::to_string(read_bytes_) +
+         ": it changes while it is read; measure it again when nothing writes it");
   }
 
   [[noreturn]] void fail(const std::string& text) const {
@@ -83,10 +90,11 @@ class PlainSource : public ByteSource {
   }
 
   std::string path_;
-  FileDescriptor fd_;
+  Descriptor file_;
   std::array<char, kMagicBytes> magic_{};
   std::size_t magic_bytes_ = 0;
-  std::uint64_t consumed_bytes_ = 0;
+  std::uint64_t consumed_bytes_ = 0;  // with the magic bytes once they are handed out
+  std::uint64_t read_bytes_ = 0;
   std::uint64_t file_bytes_ = 0;
 };
 
@@ -172,7 +180,8 @@ std::unique_ptr<ByteSource> open_byte_source(const std::string& path) {
 
 std::size_t read_file_at(const std::string& path, std::uint64_t offset, char* to,
                          std::size_t bytes) {
-  const FileDescriptor file(path);
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file) throw Error(ErrorKind::kInput, path, 0, "cannot open: " + errno_text());
   std::size_t done = 0;
   while (done < bytes) {
     const ssize_t got =

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "io/texture/image_module.hpp"
@@ -42,6 +43,8 @@ extern "C" __attribute__((visibility("default"))) bool atlasgauge_image_size(
     const std::string fault = read_size(path, *width, *height);
     if (fault.empty()) return true;
     put_error(fault, error, error_bytes);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     put_error(e.what(), error, error_bytes);
   }

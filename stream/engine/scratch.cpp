@@ -46,20 +46,18 @@ Scratch::Scratch(const Options& options, MemoryBudget& budget)
     : directory_(options.directory),
       block_bytes_(rounded_up(options.block_bytes)),
       resident_blocks_(static_cast<std::uint32_t>(options.resident_bytes / block_bytes_)) {
+  spare_buffers_.reserve(kSpareBuffers);
+  free_resident_.reserve(resident_blocks_);
   if (resident_blocks_ == 0) return;
   const std::uint64_t pool_bytes = std::uint64_t{resident_blocks_} * block_bytes_;
   pool_reservation_ = budget.reserve(pool_bytes, "the resident part of scratch");
   pool_ = AlignedBytes(pool_bytes);
 }
 
-Scratch::~Scratch() {
-  if (file_ >= 0) ::close(file_);
-}
-
 void Scratch::open_file() {
-  file_ = open_unnamed(directory_, O_DIRECT);
-  if (file_ < 0 && errno == EINVAL) file_ = open_unnamed(directory_, 0);
-  if (file_ < 0) {
+  file_ = Descriptor(open_unnamed(directory_, O_DIRECT));
+  if (!file_ && errno == EINVAL) file_ = Descriptor(open_unnamed(directory_, 0));
+  if (!file_) {
     throw Error(ErrorKind::kResource, directory_, 0,
                 "cannot make a scratch file: " + errno_text() +
                     "; give a writable directory with --tmp-dir");
@@ -74,7 +72,7 @@ AlignedBytes Scratch::take_buffer() {
   return buffer;
 }
 
-void Scratch::return_buffer(AlignedBytes buffer) {
+void Scratch::return_buffer(AlignedBytes buffer) noexcept {
   const std::lock_guard lock(mutex_);
   if (spare_buffers_.size() < kSpareBuffers) spare_buffers_.push_back(std::move(buffer));
 }
@@ -91,11 +89,18 @@ Scratch::BlockId Scratch::allocate() {
   if (next_resident_ < resident_blocks_) return next_resident_++;
   ++spilled_blocks_;
   if (!free_on_disk_.empty()) return take(free_on_disk_);
-  if (file_ < 0) open_file();
+  if (!file_) open_file();
+  make_room_for_freed_blocks();
   return resident_blocks_ + next_on_disk_++;
 }
 
-void Scratch::free(BlockId block) {
+/// Blocks are freed while errors pass, when memory may be what there is too little of.
+void Scratch::make_room_for_freed_blocks() {
+  const std::size_t blocks = std::size_t{next_on_disk_} + 1;
+  if (free_on_disk_.capacity() < blocks) free_on_disk_.reserve(2 * blocks);
+}
+
+void Scratch::free(BlockId block) noexcept {
   const std::lock_guard lock(mutex_);
   --live_blocks_;
   (block < resident_blocks_ ? free_resident_ : free_on_disk_).push_back(block);
@@ -110,38 +115,47 @@ std::uint64_t Scratch::file_offset(BlockId block) const {
   return std::uint64_t{block - resident_blocks_} * block_bytes_;
 }
 
+/// Calls transfer(done), which reads or writes on from there, until `bytes` are done.
+template <class Transfer>
+void Scratch::transfer_all(std::size_t bytes, const char* what, Transfer transfer) const {
+  bool may_be_misaligned = true;
+  for (std::size_t done = 0; done < bytes;) {
+    const ssize_t n = transfer(done);
+    if (n > 0) {
+      done += static_cast<std::size_t>(n);
+    } else if (n < 0 && errno == EINVAL && std::exchange(may_be_misaligned, false)) {
+      leave_direct_io();
+    } else if (n == 0 || errno != EINTR) {
+      throw Error(ErrorKind::kResource, directory_, 0,
+                  fmt::format("cannot {} ({} MiB of scratch in use): {}; free space there or give "
+                              "another directory with --tmp-dir",
+                              what, peak_bytes() >> 20, n == 0 ? "it is cut short" : errno_text()));
+    }
+  }
+}
+
+/// Ordinary I/O from here on: a transfer stopped between two units of direct I/O, or the file
+/// system wants larger units.
+void Scratch::leave_direct_io() const {
+  ::fcntl(file_.get(), F_SETFL, ::fcntl(file_.get(), F_GETFL) & ~O_DIRECT);
+}
+
 void Scratch::write(BlockId block, const std::byte* from, std::size_t bytes) {
   const std::size_t size = rounded_up(bytes);
-  std::size_t done = 0;
-  while (done < size) {
-    const ssize_t n =
-        ::pwrite(file_, from + done, size - done, static_cast<off_t>(file_offset(block) + done));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) {
-      throw Error(ErrorKind::kResource, directory_, 0,
-                  fmt::format("cannot write scratch ({} MiB in use): {}; free space there or give "
-                              "another directory with --tmp-dir",
-                              peak_bytes() >> 20, errno_text()));
-    }
-    done += static_cast<std::size_t>(n);
-  }
+  transfer_all(size, "write scratch", [&](std::size_t done) {
+    return ::pwrite(file_.get(), from + done, size - done,
+                    static_cast<off_t>(file_offset(block) + done));
+  });
   const std::lock_guard lock(mutex_);
   written_bytes_ += size;
 }
 
 void Scratch::read(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const {
   const std::size_t size = rounded_up(bytes);
-  std::size_t done = 0;
-  while (done < bytes) {
-    const ssize_t n = ::pread(file_, to + done, size - done,
-                              static_cast<off_t>(file_offset(block) + offset + done));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) {
-      throw Error(ErrorKind::kResource, directory_, 0,
-                  "cannot read scratch back: " + (n == 0 ? "it is cut short" : errno_text()));
-    }
-    done += static_cast<std::size_t>(n);
-  }
+  transfer_all(bytes, "read scratch back", [&](std::size_t done) {
+    return ::pread(file_.get(), to + done, size - done,
+                   static_cast<off_t>(file_offset(block) + offset + done));
+  });
   const std::lock_guard lock(mutex_);
   read_bytes_ += size;
 }

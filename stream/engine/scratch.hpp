@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/file/descriptor.hpp"
 #include "stream/engine/budget.hpp"
 
 namespace atlasgauge {
@@ -35,7 +36,8 @@ class AlignedBytes {
 /// pool never touches the disk. Stages are written as if every block were on disk.
 ///
 /// The file is opened for direct I/O where the file system allows: pages that pass through the page
-/// cache cost several times more CPU.
+/// cache cost several times more CPU. Where the file system has no files without a name, it has one
+/// between two system calls: a signal just then would leave an empty file.
 /// Thread-safe; distinct blocks may be read and written at the same time.
 class Scratch {
  public:
@@ -49,7 +51,6 @@ class Scratch {
   };
 
   Scratch(const Options& options, MemoryBudget& budget);
-  ~Scratch();
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
@@ -57,10 +58,10 @@ class Scratch {
 
   /// Memory for one block, taken from a few that are kept for the next to ask.
   AlignedBytes take_buffer();
-  void return_buffer(AlignedBytes buffer);
+  void return_buffer(AlignedBytes buffer) noexcept;
 
   BlockId allocate();
-  void free(BlockId block);
+  void free(BlockId block) noexcept;
 
   /// Address of a resident block; null for a block on disk.
   std::byte* resident(BlockId block) const;
@@ -81,13 +82,17 @@ class Scratch {
  private:
   std::uint64_t file_offset(BlockId block) const;
   void open_file();
+  void make_room_for_freed_blocks();
+  template <class Transfer>
+  void transfer_all(std::size_t bytes, const char* what, Transfer transfer) const;
+  void leave_direct_io() const;
 
   const std::string directory_;
   const std::size_t block_bytes_;
   const std::uint32_t resident_blocks_;
   Reservation pool_reservation_;
   AlignedBytes pool_;
-  int file_ = -1;
+  Descriptor file_;
 
   static constexpr std::size_t kSpareBuffers = 8;
 

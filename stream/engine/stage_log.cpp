@@ -35,25 +35,28 @@ StageCost reading(std::string name, const Scratch& scratch) {
 }  // namespace
 
 StageLog::Stage::Stage(StageLog& log, std::string name, std::uint64_t total_work)
-    : log_(log), before_(reading(std::move(name), log.scratch_)), total_work_(total_work) {
+    : log_(log),
+      index_(log.stages_.size()),
+      before_(reading(std::move(name), log.scratch_)),
+      total_work_(total_work) {
   for (std::size_t i = 0; i < log.workers_.count(); ++i) {
     items_before_.push_back(log.workers_.items_done(i));
   }
+  log_.stages_.push_back({before_.name});
   progress(0);
 }
 
 StageLog::Stage::~Stage() {
   progress(total_work_);
-  StageCost cost = reading(before_.name, log_.scratch_);
-  cost.wall_seconds -= before_.wall_seconds;
-  cost.cpu_seconds -= before_.cpu_seconds;
-  cost.spilled_bytes -= before_.spilled_bytes;
-  cost.written_bytes -= before_.written_bytes;
-  cost.read_bytes -= before_.read_bytes;
+  StageCost& cost = log_.stages_[index_];
+  cost.wall_seconds = wall_seconds() - before_.wall_seconds;
+  cost.cpu_seconds = cpu_seconds() - before_.cpu_seconds;
+  cost.spilled_bytes = log_.scratch_.spilled_bytes() - before_.spilled_bytes;
+  cost.written_bytes = log_.scratch_.written_bytes() - before_.written_bytes;
+  cost.read_bytes = log_.scratch_.read_bytes() - before_.read_bytes;
   for (std::size_t i = 0; i < items_before_.size(); ++i) {
     if (log_.workers_.items_done(i) > items_before_[i]) ++cost.workers_busy;
   }
-  log_.stages_.push_back(std::move(cost));
 }
 
 void StageLog::Stage::progress(std::uint64_t done) {

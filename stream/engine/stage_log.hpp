@@ -23,7 +23,8 @@ struct StageCost {
   std::size_t workers_busy = 0;  ///< workers that did any of its parallel work
 };
 
-/// Hears how far a stage is: its name and a fraction in [0, 1].
+/// Hears how far a stage is: its name and a fraction in [0, 1]. Must not throw: a stage that a
+/// fault ends tells so too.
 using Progress = std::function<void(const std::string& stage, double fraction)>;
 
 /// Costs of the stages of a run, in order.
@@ -44,6 +45,7 @@ class StageLog {
 
    private:
     StageLog& log_;
+    std::size_t index_;  // made at the start, so that the end needs no memory
     StageCost before_;
     std::vector<std::uint64_t> items_before_;
     std::uint64_t total_work_;

@@ -1,12 +1,17 @@
 #include "stream/engine/workers.hpp"
 
+#include <fmt/format.h>
+
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "io/error.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -27,6 +32,12 @@ class PipelineRun {
     } catch (...) {
       fail(std::current_exception());
     }
+  }
+
+  void fail(std::exception_ptr error) {
+    const std::lock_guard lock(turn_mutex_);
+    if (!error_) error_ = std::move(error);
+    turn_changed_.notify_all();
   }
 
   void rethrow() const {
@@ -60,12 +71,6 @@ class PipelineRun {
     return error_ != nullptr;
   }
 
-  void fail(std::exception_ptr error) {
-    const std::lock_guard lock(turn_mutex_);
-    if (!error_) error_ = std::move(error);
-    turn_changed_.notify_all();
-  }
-
   const Workers::Pipeline& pipeline_;
   std::mutex produce_mutex_;
   bool exhausted_ = false;
@@ -83,8 +88,17 @@ void Workers::run(const Pipeline& pipeline) const {
   PipelineRun run(pipeline);
   {
     std::vector<std::jthread> others;
-    for (std::size_t worker = 1; worker < count_; ++worker) {
-      others.emplace_back([&run, worker, this] { run.work(worker, items_done_[worker]); });
+    try {
+      for (std::size_t worker = 1; worker < count_; ++worker) {
+        others.emplace_back([&run, worker, this] { run.work(worker, items_done_[worker]); });
+      }
+    } catch (const std::system_error& error) {
+      run.fail(std::make_exception_ptr(
+          Error(ErrorKind::kResource,
+                fmt::format("the system gives no thread {} of {}: {}; give fewer with --threads",
+                            others.size() + 2, count_, error.code().message()))));
+    } catch (...) {
+      run.fail(std::current_exception());
     }
     run.work(0, items_done_[0]);
   }

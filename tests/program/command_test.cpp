@@ -143,6 +143,29 @@ TEST_F(CommandTest, WarningsGoToStandardErrorAndAreCounted) {
   EXPECT_EQ(nlohmann::json::parse(run.out).at("faces_invalid"), 1);
 }
 
+TEST_F(CommandTest, VerboseShowsTheMemoryLimitAndItsOrigin) {
+  const auto limit_line = [&](const ProgramResult& run) {
+    const std::size_t at = run.err.find("memory limit");
+    return at == std::string::npos ? "" : run.err.substr(at, run.err.find('\n', at) - at);
+  };
+  const std::string given = limit_line(atlasgauge({quad_, "-t", "8x8", "-v", "--memory", "300M"}));
+  EXPECT_NE(given.find("300.0 MiB  --memory"), std::string::npos) << given;
+  const std::string slurm =
+      limit_line(atlasgauge({quad_, "-t", "8x8", "-v"}, {"SLURM_MEM_PER_NODE=500"}));
+  EXPECT_NE(slurm.find("400.0 MiB  0.8 of SLURM_MEM_PER_NODE"), std::string::npos) << slurm;
+  const std::string machine = limit_line(
+      atlasgauge({quad_, "-t", "8x8", "-v"}, {"SLURM_MEM_PER_NODE=0", "SLURM_MEM_PER_CPU=0"}));
+  EXPECT_NE(machine.find("0.8 of "), std::string::npos) << machine;
+  EXPECT_EQ(machine.find("SLURM"), std::string::npos) << machine;
+}
+
+TEST_F(CommandTest, RefusedMemoryNamesWhatSetTheLimit) {
+  const ProgramResult run = atlasgauge({quad_}, {"SLURM_MEM_PER_NODE=100"});
+  EXPECT_EQ(run.exit_code, 4);
+  EXPECT_NE(run.err.find("80.0 MiB (0.8 of SLURM_MEM_PER_NODE) is too little"), std::string::npos)
+      << run.err;
+}
+
 TEST_F(CommandTest, HelpAndVersionExitWithZero) {
   EXPECT_EQ(atlasgauge({"--help"}).exit_code, 0);
   EXPECT_NE(atlasgauge({"--version"}).out.find("atlasgauge"), std::string::npos);

@@ -8,6 +8,7 @@
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filter/zstd.hpp>
 #include <boost/iostreams/filtering_stream.hpp>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -190,6 +191,42 @@ TEST(ByteSourceTest, AnObjIsTheSameCompressed) {
     EXPECT_EQ(obj.mesh.positions.back().x, plain.mesh.positions.back().x);
     EXPECT_EQ(obj.mesh.faces.size(), 2U);
   }
+}
+
+/// Reads a file of which `change` makes another once reading has begun.
+template <class Change>
+void expect_change_refused(const std::string& content, Change change) {
+  const TempDir dir;
+  const std::string path = dir.write("model", content);
+  const std::unique_ptr<ByteSource> source = open_byte_source(path);
+  std::string buffer(1000, '\0');
+  source->read(buffer.data(), buffer.size());
+  change(path);
+  try {
+    while (source->read(buffer.data(), buffer.size()) > 0) {
+    }
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInput);
+    EXPECT_NE(std::string(error.what()).find("it changes while it is read"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(ByteSourceTest, FileThatGrowsWhileItIsReadIsRefused) {
+  const auto grow = [](const std::string& path) {
+    std::ofstream(path, std::ios::app) << "v 1 2 3\n";
+  };
+  expect_change_refused(noisy_text(100'000), grow);
+}
+
+TEST(ByteSourceTest, FileThatShrinksWhileItIsReadIsRefused) {
+  const auto shrink = [](const std::string& path) { std::filesystem::resize_file(path, 50'000); };
+  expect_change_refused(noisy_text(100'000), shrink);
+}
+
+TEST(ByteSourceTest, FilesThatTellNoSizeAreRead) {
+  EXPECT_NE(read_all("/proc/self/status").find("Pid"), std::string::npos);
 }
 
 }  // namespace
