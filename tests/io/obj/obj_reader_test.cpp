@@ -440,6 +440,13 @@ TEST(ObjReaderTest, Utf16AndBinaryFilesAreErrorsThatSaySo) {
             std::string::npos);
 }
 
+TEST(ObjReaderTest, AZeroByteInACommentIsNoReasonForAnError) {
+  const std::string text = "v 1 2 #" + std::string(100, '\0');
+  for (const std::size_t block_bytes : {64U, 1U << 16}) {
+    EXPECT_NE(error_of(text, block_bytes).find("found the end of the line"), std::string::npos);
+  }
+}
+
 TEST(ObjReaderTest, ABlockStaysWithinItsStatedMemory) {
   EXPECT_LT(ObjReader::memory_bytes(4 << 20), 7U * (4 << 20));
   EXPECT_GT(ObjReader::memory_bytes(4 << 20), std::size_t{4} << 20);
