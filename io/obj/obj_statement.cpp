@@ -71,6 +71,10 @@ std::string_view defect_text(ObjDefect defect) {
       return "polygon dropped: it has the vertex index 0, but indices begin at 1";
     case ObjDefect::kNoSuchVertex:
       return "polygon dropped: it names a vertex that does not exist";
+    case ObjDefect::kPositionNotFinite:
+      return "the position is not finite: faces that use it are counted, but not measured";
+    case ObjDefect::kTexCoordNotFinite:
+      return "the texture coordinate is not finite: taken as none";
   }
   return "";
 }

@@ -297,6 +297,24 @@ TEST(ObjReaderTest, StrictMakesTheFirstWarningAnError) {
   EXPECT_THROW(read_obj(kFourVertices + "f 0 1 2\n", 1 << 16, true), Error);
 }
 
+TEST(ObjReaderTest, CoordinatesThatAreNotFiniteWarnWithTheirLine) {
+  const std::string blanks(100, ' ');
+  const std::string text = "v 1 2 3\nv 1 nan 3\nvt inf\nvt 0 0\nvt 0 " + blanks + "1e99\nv " +
+                           blanks + "1e999 0 0\nv 1 1 1 nan\n";
+  for (const std::size_t block_bytes : {64U, 1U << 16}) {
+    const ObjContent obj = read_obj(text, block_bytes);
+    ASSERT_EQ(obj.messages.size(), 4U);
+    EXPECT_TRUE(obj.messages[0].starts_with("model.obj:2: the position is not finite"));
+    EXPECT_TRUE(obj.messages[1].starts_with("model.obj:3: the texture coordinate is not finite"));
+    EXPECT_TRUE(obj.messages[2].starts_with("model.obj:5: the texture coordinate"));
+    EXPECT_TRUE(obj.messages[3].starts_with("model.obj:6: the position"));
+    EXPECT_EQ(obj.mesh.positions.size(), 4U);
+    EXPECT_EQ(obj.summary.invalid_polygons, 0U);
+  }
+  EXPECT_THROW(read_obj("v 0 0 nan\n", 1 << 16, true), Error);
+  EXPECT_THROW(read_obj("vt nan\n", 1 << 16, true), Error);
+}
+
 TEST(ObjReaderTest, ForwardReferencesAreHandedOnOnlyBeyondTheBlock) {
   EXPECT_TRUE(read_obj("f 1 2 3\n" + kFourVertices).mesh.forward.empty());
   const std::string filler(100, '#');
