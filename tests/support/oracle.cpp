@@ -14,6 +14,7 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 #include <tuple>
 
 namespace atlasgauge::oracle {
@@ -185,8 +186,13 @@ std::string join_path(const fs::path& folder, const std::string& name) {
   return (folder / name).lexically_normal().string();
 }
 
+bool is_file(const fs::path& path) {
+  std::error_code ignored;  // a name may be too long for any file
+  return fs::is_regular_file(path, ignored);
+}
+
 bool image_exists(const std::string& path, const Options& options) {
-  return fs::is_regular_file(path) || (options.image_size && options.image_size(path));
+  return is_file(path) || (options.image_size && options.image_size(path));
 }
 
 std::string find_image(const std::string& name, const fs::path& mtl_folder,
@@ -257,7 +263,7 @@ std::vector<std::string> library_names(const std::string& rest, const fs::path& 
     for (; last > first; --last) {
       name =
           with_slashes(rest.substr(words[first].begin, words[last - 1].end - words[first].begin));
-      if (fs::is_regular_file(folder / name)) break;
+      if (is_file(folder / name)) break;
     }
     if (last > first) names.push_back(name);
     first = std::max(last, first + 1);
@@ -278,7 +284,7 @@ Materials read_materials(const std::vector<Statement>& statements, const fs::pat
     }
   }
   const fs::path own = fs::path(obj_path).replace_extension(".mtl");
-  if (!has_library && fs::is_regular_file(own)) {
+  if (!has_library && is_file(own)) {
     read_mtl(own.string(), folder, options, materials);
   }
   return materials;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 #include "io/error.hpp"
 #include "tests/support/oracle.hpp"
@@ -45,7 +46,8 @@ oracle::Options oracle_options(const PipelineConfig& config) {
   }
   options.image_size = [probe = config.probe](const std::string& path) {
     std::optional<oracle::Size> size;
-    if (!probe || !std::filesystem::is_regular_file(path)) return size;
+    std::error_code ignored;
+    if (!probe || !std::filesystem::is_regular_file(path, ignored)) return size;
     try {
       const ImageSize found = probe(path);
       size = {found.width, found.height};
