@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -11,11 +12,19 @@ struct Position {
   double x, y, z;
 };
 
+inline bool is_finite(const Position& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
 /// Texture coordinate, v = 0 at the bottom row of the image. Text is rounded to float once; -0 is
 /// stored as +0, so equality is equality of the bits unless a value is NaN.
 struct TexCoord {
   float u, v;
 };
+
+inline bool is_finite(const TexCoord& t) {
+  return std::isfinite(t.u) && std::isfinite(t.v);
+}
 
 /// One triangle as the file names it. A polygon (c0, c1, c2, c3, ...) is the fan (c0,c1,c2),
 /// (c0,c2,c3), ... `v` is absolute in the model and may point past the positions read so far;

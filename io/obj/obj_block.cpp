@@ -67,6 +67,7 @@ void ObjBlock::clear_values() {
   invalid_polygons = 0;
   skipped_primitives = 0;
   unknown_statements = 0;
+  not_finite = 0;
   oddities.clear();
   fault.reset();
 }

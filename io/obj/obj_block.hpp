@@ -45,7 +45,7 @@ struct ObjBlock {
     Name name;
   };
 
-  /// Something to warn about: a dropped polygon, or an unknown statement (kNone).
+  /// Something to warn about: a defect, or an unknown statement (kNone).
   struct Oddity {
     std::uint32_t line;
     ObjDefect defect;
@@ -91,6 +91,7 @@ struct ObjBlock {
   std::uint64_t invalid_polygons = 0;
   std::uint64_t skipped_primitives = 0;
   std::uint64_t unknown_statements = 0;
+  std::uint64_t not_finite = 0;  ///< positions and texture coordinates
   std::vector<Oddity> oddities;  ///< the first few of each kind, by line
   std::optional<Fault> fault;    ///< at the first line that cannot be read; parsing ended there
 };

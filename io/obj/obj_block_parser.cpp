@@ -105,6 +105,9 @@ const char* LineParser::position(const char* text) {
   word_end = read_double(p, position.z);
   if (word_end == nullptr) return fail_coordinate('z', p);
   block_.positions.push(position);
+  if (!is_finite(position)) [[unlikely]] {
+    note(ObjDefect::kPositionNotFinite, {}, ++block_.not_finite);
+  }
   return *word_end == '\n' ? word_end : find_line_end(word_end);
 }
 
@@ -120,6 +123,9 @@ const char* LineParser::texcoord(const char* text) {
     if (word_end == nullptr) return fail_coordinate('v', p);
   }
   block_.texcoords.push(texcoord);
+  if (!is_finite(texcoord)) [[unlikely]] {
+    note(ObjDefect::kTexCoordNotFinite, {}, ++block_.not_finite);
+  }
   return *word_end == '\n' ? word_end : find_line_end(word_end);
 }
 

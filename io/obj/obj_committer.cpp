@@ -15,6 +15,7 @@ namespace {
 
 constexpr const char* kInvalidKind = "faces invalid";
 constexpr const char* kUnknownKind = "unknown statement";
+constexpr const char* kNotFiniteKind = "coordinates not finite";
 
 /// ForwardPolygons handed out at a time.
 constexpr std::size_t kForwardBatch = 1024;
@@ -47,8 +48,20 @@ std::size_t end_of_polygon(const ObjBlock& block, std::size_t polygon) {
   return is_last ? block.faces.size() : block.polygons[polygon + 1].first_face;
 }
 
+bool is_not_finite(ObjDefect defect) {
+  return defect == ObjDefect::kPositionNotFinite || defect == ObjDefect::kTexCoordNotFinite;
+}
+
 std::uint64_t count_spliced(std::string_view text) {
   return static_cast<std::uint64_t>(std::ranges::count(text, '\v'));
+}
+
+/// Nothing in the file is of an OBJ, but what says nothing about a model.
+bool is_empty(const ObjSummary& obj) {
+  return obj.positions + obj.texcoords + obj.faces + obj.invalid_polygons +
+                 obj.skipped_primitives ==
+             0 &&
+         obj.material_names.empty() && obj.mtllib_lines.empty();
 }
 
 }  // namespace
@@ -71,6 +84,11 @@ void ObjCommitter::commit(ObjBlock& block, MeshSink& sink) {
 ObjSummary ObjCommitter::finish() {
   summary_.material_names = materials_.take();
   summary_.mtllib_lines = libraries_.take();
+  if (is_empty(summary_)) {
+    throw Error(ErrorKind::kInput, path_, 0,
+                "found no statement of a Wavefront OBJ model (v, vt, f, ...): the file is empty or "
+                "something else; give a model");
+  }
   return std::move(summary_);
 }
 
@@ -164,20 +182,27 @@ void ObjCommitter::warn_about(ObjBlock& block) {
   std::ranges::stable_sort(block.oddities, {}, &ObjBlock::Oddity::line);
   std::uint64_t unknown = 0;
   std::uint64_t invalid = 0;
+  std::uint64_t not_finite = 0;
   for (const auto& [line, defect, keyword] : block.oddities) {
     const std::uint64_t file_line = lines_ + line + 1;
     if (defect == ObjDefect::kNone) {
       ++unknown;
       warnings_.add(kUnknownKind, path_, file_line, unknown_statement(block.text_of(keyword)));
     } else {
-      ++invalid;
-      warnings_.add(kInvalidKind, path_, file_line, std::string(defect_text(defect)));
+      ++(is_not_finite(defect) ? not_finite : invalid);
+      warn_about(defect, file_line);
     }
   }
   warnings_.count(kUnknownKind, block.unknown_statements - unknown);
   warnings_.count(kInvalidKind, block.invalid_polygons - invalid);
+  warnings_.count(kNotFiniteKind, block.not_finite - not_finite);
   summary_.unknown_statements += block.unknown_statements;
   summary_.invalid_polygons += block.invalid_polygons;
+}
+
+void ObjCommitter::warn_about(ObjDefect defect, std::uint64_t line) {
+  const char* const kind = is_not_finite(defect) ? kNotFiniteKind : kInvalidKind;
+  warnings_.add(kind, path_, line, std::string(defect_text(defect)));
 }
 
 void ObjCommitter::emit_forward(const ObjBlock& block, MeshSink& sink) {
@@ -240,8 +265,10 @@ void ObjCommitter::feed_long_line(std::string_view text, ObjBlock& block, MeshSi
 void ObjCommitter::end_long_line(std::uint64_t line, MeshSink& sink) {
   switch (long_line_.statement()) {
     case ObjStatement::kPosition:
+      if (!is_finite(long_line_.position())) warn_about(ObjDefect::kPositionNotFinite, line);
       return emit({.positions = {&long_line_.position(), 1}}, sink);
     case ObjStatement::kTexCoord:
+      if (!is_finite(long_line_.texcoord())) warn_about(ObjDefect::kTexCoordNotFinite, line);
       return emit({.texcoords = {&long_line_.texcoord(), 1}}, sink);
     case ObjStatement::kFace:
       return end_long_polygon(line, sink);
@@ -269,7 +296,7 @@ void ObjCommitter::end_long_polygon(std::uint64_t line, MeshSink& sink) {
   const std::uint64_t triangles = long_line_.triangles();
   if (triangles == 0) {
     ++summary_.invalid_polygons;
-    return warnings_.add(kInvalidKind, path_, line, std::string(defect_text(defect)));
+    return warn_about(defect, line);
   }
   const bool is_whole = defect == ObjDefect::kNone;
   if (is_whole && long_line_.max_vertex() < summary_.positions) return;

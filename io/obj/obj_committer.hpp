@@ -34,6 +34,7 @@ class ObjCommitter {
   ObjDefect resolve_polygon(ObjBlock& block, std::size_t first_face, std::size_t end_face) const;
   void set_materials(ObjBlock& block);
   void warn_about(ObjBlock& block);
+  void warn_about(ObjDefect defect, std::uint64_t line);
   void emit_forward(const ObjBlock& block, MeshSink& sink);
 
   ObjLongLine::Before here(std::uint64_t line) const;

@@ -34,13 +34,17 @@ std::string quoted(std::string_view word) {
   return text + (word.size() > kShownBytes ? "...\"" : "\"");
 }
 
+/// A comment ends the line, whatever it holds.
+bool is_line_end(std::string_view word) {
+  return word.empty() || word.front() == '#';
+}
+
 bool is_binary(std::string_view word) {
-  return word.find('\0') != std::string_view::npos;
+  return !is_line_end(word) && word.find('\0') != std::string_view::npos;
 }
 
 std::string found(std::string_view word) {
-  const bool is_line_end = word.empty() || word.front() == '#';
-  return is_line_end ? "found the end of the line" : "found " + quoted(word);
+  return is_line_end(word) ? "found the end of the line" : "found " + quoted(word);
 }
 
 }  // namespace
@@ -67,6 +71,10 @@ std::string_view defect_text(ObjDefect defect) {
       return "polygon dropped: it has the vertex index 0, but indices begin at 1";
     case ObjDefect::kNoSuchVertex:
       return "polygon dropped: it names a vertex that does not exist";
+    case ObjDefect::kPositionNotFinite:
+      return "the position is not finite: faces that use it are counted, but not measured";
+    case ObjDefect::kTexCoordNotFinite:
+      return "the texture coordinate is not finite: taken as none";
   }
   return "";
 }

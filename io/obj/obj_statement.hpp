@@ -63,8 +63,15 @@ inline const char* read_corner(const char* text, ObjCorner& corner) {
   return is_word_end(*p) ? p : nullptr;
 }
 
-/// Why a polygon is dropped.
-enum class ObjDefect : std::uint8_t { kNone, kFewCorners, kIndexZero, kNoSuchVertex };
+/// Why a polygon is dropped, or what else is wrong with a statement that can be read.
+enum class ObjDefect : std::uint8_t {
+  kNone,
+  kFewCorners,
+  kIndexZero,
+  kNoSuchVertex,
+  kPositionNotFinite,
+  kTexCoordNotFinite,
+};
 
 std::string_view defect_text(ObjDefect defect);
 

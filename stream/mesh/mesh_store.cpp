@@ -75,7 +75,7 @@ class StoringSink : public MeshSink {
       copy_until(polygon.first_face, true);
       copy_until(polygon.first_face + polygon.face_count, false);
       ++store_.invalid_polygons;
-      warnings.add("invalid face", path, polygon.line,
+      warnings.add("faces invalid", path, polygon.line,
                    "the face names a vertex that the file does not have; it is left out");
     }
     copy_until(store_.faces.size(), true);

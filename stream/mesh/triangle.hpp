@@ -15,12 +15,6 @@ namespace atlasgauge {
 inline constexpr TexCoord kNoTexCoord{std::numeric_limits<float>::quiet_NaN(),
                                       std::numeric_limits<float>::quiet_NaN()};
 
-inline bool is_finite(const Position& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-inline bool is_finite(const TexCoord& t) {
-  return std::isfinite(t.u) && std::isfinite(t.v);
-}
 
 /// Bits that order and identify texture coordinates; readers store -0 as +0.
 inline std::uint64_t bits_of(const TexCoord& t) {

@@ -331,12 +331,9 @@ TEST_F(FaultsTest, FifoAsModelIsReadAsAStream) {
   EXPECT_EQ(feeder.wait().exit_code, 0);
 }
 
-TEST_F(FaultsTest, EmptyModelsHaveEmptyReports) {
+TEST_F(FaultsTest, EmptyModelsAreRefused) {
   for (const std::string& empty : {std::string("/dev/null"), dir_.write("empty.obj", "")}) {
-    const ProgramResult result = measure({.model = empty});
-    EXPECT_EQ(result.exit_code, 0) << empty << result.err;
-    EXPECT_NE(content_of(report_).find("\"fn\": 0"), std::string::npos);
-    expect_nothing_left();
+    expect_refusal(measure({.model = empty}), 3, "no statement of a Wavefront OBJ");
   }
 }
 

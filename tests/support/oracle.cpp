@@ -14,6 +14,7 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 #include <tuple>
 
 namespace atlasgauge::oracle {
@@ -82,8 +83,11 @@ std::string read_file(const std::string& path) {
   return text.str();
 }
 
-// A line that ends in a backslash is joined with the next, a blank between them.
-std::vector<Statement> read_statements(const std::string& path) {
+// What a backslash at the end of a line means.
+enum class Backslash { kContinues, kPlain };
+
+// A line that continues is joined with the next, a blank between them.
+std::vector<Statement> read_statements(const std::string& path, Backslash backslash) {
   std::istringstream text(read_file(path));
   std::vector<Statement> statements;
   std::string line, joined;
@@ -91,7 +95,8 @@ std::vector<Statement> read_statements(const std::string& path) {
   while (std::getline(text, line)) {
     ++number;
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    const bool continues = !line.empty() && line.back() == '\\';
+    const bool continues =
+        backslash == Backslash::kContinues && !line.empty() && line.back() == '\\';
     if (continues) line.back() = ' ';
     joined += line;
     if (continues && text.peek() != std::istringstream::traits_type::eof()) continue;
@@ -119,21 +124,22 @@ bool only_digits(const std::string& text) {
   return text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// "1.#INF00" is how old runtimes print infinity with six digits.
+// "1.#INF00" and "1.#INF00e+000" are how old runtimes print infinity with two digits.
 bool is_msvc_special(const std::string& text, const std::string& special) {
-  return text.starts_with(special) && only_digits(text.substr(special.size()));
+  return text.starts_with(special) &&
+         text.find_first_not_of("0eE+", special.size()) == std::string::npos;
 }
 
 std::optional<double> special_number(const std::string& word) {
   const bool negative = word.starts_with('-');
-  const std::string text = lower(negative || word.starts_with('+') ? word.substr(1) : word);
+  const std::string text = negative || word.starts_with('+') ? word.substr(1) : word;
   const double sign = negative ? -1 : 1;
-  if (text == "inf" || text == "infinity" || is_msvc_special(text, "1.#inf")) {
+  if (lower(text) == "inf" || lower(text) == "infinity" || is_msvc_special(text, "1.#INF")) {
     return sign * std::numeric_limits<double>::infinity();
   }
-  if (text == "nan" || is_msvc_special(text, "1.#ind") || is_msvc_special(text, "1.#qnan")) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
+  const bool is_nan = lower(text) == "nan" || is_msvc_special(text, "1.#IND") ||
+                      is_msvc_special(text, "1.#QNAN") || is_msvc_special(text, "1.#SNAN");
+  if (is_nan) return std::numeric_limits<double>::quiet_NaN();
   return std::nullopt;
 }
 
@@ -180,8 +186,13 @@ std::string join_path(const fs::path& folder, const std::string& name) {
   return (folder / name).lexically_normal().string();
 }
 
+bool is_file(const fs::path& path) {
+  std::error_code ignored;  // a name may be too long for any file
+  return fs::is_regular_file(path, ignored);
+}
+
 bool image_exists(const std::string& path, const Options& options) {
-  return fs::is_regular_file(path) || (options.image_size && options.image_size(path));
+  return is_file(path) || (options.image_size && options.image_size(path));
 }
 
 std::string find_image(const std::string& name, const fs::path& mtl_folder,
@@ -198,7 +209,8 @@ bool is_numeric(const std::string& word) {
   return !word.empty() && *end == '\0';
 }
 
-// The words that an option of a texture statement takes; -s, -o and -t take one to three numbers.
+// The words that an option of a texture statement takes; -s, -o and -t take one to three, and a
+// number that may be the last of these or the name is the name if nothing follows.
 size_t option_arguments(const std::vector<std::string>& words, size_t option) {
   static const std::map<std::string, size_t> fixed = {
       {"-blendu", 1},  {"-blendv", 1}, {"-boost", 1},     {"-mm", 2},
@@ -206,7 +218,7 @@ size_t option_arguments(const std::vector<std::string>& words, size_t option) {
       {"-imfchan", 1}, {"-type", 1},   {"-colorspace", 1}};
   if (const auto it = fixed.find(words[option]); it != fixed.end()) return it->second;
   if (words[option] != "-s" && words[option] != "-o" && words[option] != "-t") return 0;
-  size_t count = 0;
+  size_t count = 1;
   while (count < 3 && option + count + 2 < words.size() && is_numeric(words[option + count + 1])) {
     ++count;
   }
@@ -228,7 +240,7 @@ std::string image_name_of(const std::string& rest) {
 void read_mtl(const std::string& path, const fs::path& obj_folder, const Options& options,
               Materials& materials) {
   Material* current = nullptr;
-  for (const Statement& statement : read_statements(path)) {
+  for (const Statement& statement : read_statements(path, Backslash::kPlain)) {
     if (statement.keyword == "newmtl") {
       const auto [it, is_new] = materials.by_name.try_emplace(statement.rest);
       if (is_new) materials.order.push_back(statement.rest);
@@ -236,7 +248,7 @@ void read_mtl(const std::string& path, const fs::path& obj_folder, const Options
     } else if (statement.keyword == "map_Kd" && current) {
       const std::string name = image_name_of(statement.rest);
       const fs::path folder = fs::path(path).parent_path();
-      *current = {name, name.empty() ? "" : find_image(name, folder, obj_folder, options)};
+      if (!name.empty()) *current = {name, find_image(name, folder, obj_folder, options)};
     }
   }
 }
@@ -251,7 +263,7 @@ std::vector<std::string> library_names(const std::string& rest, const fs::path& 
     for (; last > first; --last) {
       name =
           with_slashes(rest.substr(words[first].begin, words[last - 1].end - words[first].begin));
-      if (fs::is_regular_file(folder / name)) break;
+      if (is_file(folder / name)) break;
     }
     if (last > first) names.push_back(name);
     first = std::max(last, first + 1);
@@ -272,7 +284,7 @@ Materials read_materials(const std::vector<Statement>& statements, const fs::pat
     }
   }
   const fs::path own = fs::path(obj_path).replace_extension(".mtl");
-  if (!has_library && fs::is_regular_file(own)) {
+  if (!has_library && is_file(own)) {
     read_mtl(own.string(), folder, options, materials);
   }
   return materials;
@@ -359,7 +371,18 @@ Uv parse_uv(const Statement& statement) {
   return {u, v};
 }
 
+/// Whether a statement is one by which a file shows itself to be an OBJ model.
+bool is_of_obj(const Statement& statement) {
+  static const std::set<std::string> keywords = {"v",   "vt",   "f",   "usemtl", "mtllib",
+                                                 "p",   "l",    "bsp", "bzp",    "cdc",
+                                                 "cdp", "curv", "fo",  "curv2",  "surf"};
+  return keywords.contains(statement.keyword);
+}
+
 ObjContent parse_obj(const std::vector<Statement>& statements) {
+  if (std::none_of(statements.begin(), statements.end(), is_of_obj)) {
+    throw std::runtime_error("no OBJ statement");
+  }
   ObjContent obj;
   std::optional<std::string> material;
   for (const Statement& statement : statements) {
@@ -1217,7 +1240,7 @@ void report_mapping_counts(json& report, const Analysis& analysis) {
 }  // namespace
 
 Model read_obj(const std::string& obj_path, const Options& options) {
-  const std::vector<Statement> statements = read_statements(obj_path);
+  const std::vector<Statement> statements = read_statements(obj_path, Backslash::kContinues);
   const ObjContent obj = parse_obj(statements);
   Model model;
   model.name = fs::path(obj_path).filename().string();

@@ -4,42 +4,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <boost/iostreams/copy.hpp>
-#include <boost/iostreams/filter/gzip.hpp>
-#include <boost/iostreams/filter/zstd.hpp>
-#include <boost/iostreams/filtering_stream.hpp>
 #include <filesystem>
 #include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <thread>
 
 #include "io/error.hpp"
+#include "tests/support/compressed.hpp"
 #include "tests/support/obj_text.hpp"
 #include "tests/support/temp_dir.hpp"
 
 namespace atlasgauge {
 namespace {
-
-template <class Compressor>
-std::string compressed(const std::string& text) {
-  std::istringstream in(text);
-  std::ostringstream out;
-  boost::iostreams::filtering_istream filter;
-  filter.push(Compressor());
-  filter.push(in);
-  boost::iostreams::copy(filter, out);
-  return out.str();
-}
-
-std::string gzip(const std::string& text) {
-  return compressed<boost::iostreams::gzip_compressor>(text);
-}
-
-std::string zstd(const std::string& text) {
-  return compressed<boost::iostreams::zstd_compressor>(text);
-}
 
 /// Text that compresses a little, of many blocks.
 std::string noisy_text(std::size_t bytes) {

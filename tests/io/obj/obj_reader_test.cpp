@@ -123,9 +123,17 @@ TEST(ObjReaderTest, ReadsPositionsTexCoordsAndFaces) {
   EXPECT_TRUE(obj.messages.empty());
 }
 
-TEST(ObjReaderTest, AnEmptyFileIsAnEmptyModel) {
-  EXPECT_EQ(read_obj("").summary.positions, 0U);
-  EXPECT_EQ(read_obj("\n\n \r\n").summary.faces, 0U);
+TEST(ObjReaderTest, AFileWithNothingOfAModelIsRefused) {
+  for (const char* text : {"", "\n\n \r\n", "# a comment\n", "newmtl a\nKd 1 1 1\n", "o a\n"}) {
+    EXPECT_NE(error_of(text).find("no statement of a Wavefront OBJ"), std::string::npos) << text;
+  }
+}
+
+TEST(ObjReaderTest, AModelWithoutFacesIsAModel) {
+  for (const char* text :
+       {"v 0 0 0\n", "vt 0 0\n", "f 1 2 3\n", "p 1\n", "usemtl a\n", "mtllib a\n"}) {
+    EXPECT_EQ(error_of(text), "") << text;
+  }
 }
 
 TEST(ObjReaderTest, EveryBlockSizeGivesTheSameOutput) {
@@ -253,7 +261,7 @@ TEST(ObjReaderTest, OverlongNamesAndWordsAreErrorsForEveryBlockSize) {
     EXPECT_NE(error_of("mtllib n" + longest, block_bytes).find("file name"), std::string::npos);
     EXPECT_NE(error_of("v 1 2 3 4" + longest, block_bytes).find("a word"), std::string::npos);
     EXPECT_NE(error_of("f 1 2//" + longest, block_bytes).find("a word"), std::string::npos);
-    EXPECT_EQ(error_of("g n" + longest + "\n#" + longest + longest, block_bytes), "");
+    EXPECT_EQ(error_of("p 1\ng n" + longest + "\n#" + longest + longest, block_bytes), "");
     EXPECT_EQ(error_of("v 1 2 3 #" + longest + longest, block_bytes), "");
   }
 }
@@ -295,6 +303,24 @@ TEST(ObjReaderTest, MaterialsStayWithTheirFacesWhenPolygonsAreDropped) {
 
 TEST(ObjReaderTest, StrictMakesTheFirstWarningAnError) {
   EXPECT_THROW(read_obj(kFourVertices + "f 0 1 2\n", 1 << 16, true), Error);
+}
+
+TEST(ObjReaderTest, CoordinatesThatAreNotFiniteWarnWithTheirLine) {
+  const std::string blanks(100, ' ');
+  const std::string text = "v 1 2 3\nv 1 nan 3\nvt inf\nvt 0 0\nvt 0 " + blanks + "1e99\nv " +
+                           blanks + "1e999 0 0\nv 1 1 1 nan\n";
+  for (const std::size_t block_bytes : {64U, 1U << 16}) {
+    const ObjContent obj = read_obj(text, block_bytes);
+    ASSERT_EQ(obj.messages.size(), 4U);
+    EXPECT_TRUE(obj.messages[0].starts_with("model.obj:2: the position is not finite"));
+    EXPECT_TRUE(obj.messages[1].starts_with("model.obj:3: the texture coordinate is not finite"));
+    EXPECT_TRUE(obj.messages[2].starts_with("model.obj:5: the texture coordinate"));
+    EXPECT_TRUE(obj.messages[3].starts_with("model.obj:6: the position"));
+    EXPECT_EQ(obj.mesh.positions.size(), 4U);
+    EXPECT_EQ(obj.summary.invalid_polygons, 0U);
+  }
+  EXPECT_THROW(read_obj("v 0 0 nan\n", 1 << 16, true), Error);
+  EXPECT_THROW(read_obj("vt nan\n", 1 << 16, true), Error);
 }
 
 TEST(ObjReaderTest, ForwardReferencesAreHandedOnOnlyBeyondTheBlock) {
@@ -426,7 +452,7 @@ TEST(ObjReaderTest, WarningsAreCountedBeyondTheFirstFew) {
 
 TEST(ObjReaderTest, AUtf8MarkIsSkipped) {
   EXPECT_EQ(read_obj("\xEF\xBB\xBFv 1 2 3\n").mesh.positions.size(), 1U);
-  EXPECT_EQ(read_obj("\xEF\xBB\xBF").mesh.positions.size(), 0U);
+  EXPECT_NE(error_of("\xEF\xBB\xBF").find("no statement"), std::string::npos);
 }
 
 TEST(ObjReaderTest, Utf16AndBinaryFilesAreErrorsThatSaySo) {
@@ -438,6 +464,13 @@ TEST(ObjReaderTest, Utf16AndBinaryFilesAreErrorsThatSaySo) {
   EXPECT_NE(error_of("v 1\0 2 3"s).find("binary"), std::string::npos);
   EXPECT_NE(error_of("glTF " + std::string(500, 'x') + "\0"s, 64).find("binary"),
             std::string::npos);
+}
+
+TEST(ObjReaderTest, AZeroByteInACommentIsNoReasonForAnError) {
+  const std::string text = "v 1 2 #" + std::string(100, '\0');
+  for (const std::size_t block_bytes : {64U, 1U << 16}) {
+    EXPECT_NE(error_of(text, block_bytes).find("found the end of the line"), std::string::npos);
+  }
 }
 
 TEST(ObjReaderTest, ABlockStaysWithinItsStatedMemory) {
