@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 #include <system_error>
@@ -41,6 +40,8 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--chart-max", site.chart_side_max_quads, "Longest side of a chart, in quads")
       ->capture_default_str();
   app.add_option("--shuffle-faces", site.shuffle_seed, "Faces in random order, from this seed");
+  app.add_option("--shuffle-vertices", site.vertex_shuffle_seed,
+                 "Vertices in random order, from this seed");
   app.add_flag("--duplicate-vertices", site.duplicate_vertices,
                "Every chart has vertices of its own");
   app.add_option("--decimals", site.decimals, "Decimals of positions, 6 to 15")
@@ -51,19 +52,8 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->expected(2);
 }
 
-nlohmann::json read_json(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw Error(ErrorKind::kInput, path, 0, errno_text());
-  try {
-    return nlohmann::json::parse(file);
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(ErrorKind::kInput, path, 0, error.what());
-  }
-}
-
 int check(const std::string& report, const std::string& answers) {
-  const std::vector<std::string> lines =
-      differences(read_json(report), answers_from_json(read_json(answers)));
+  const std::vector<std::string> lines = differences_of_files(report, answers);
   for (const std::string& line : lines) fmt::print("{}\n", line);
   return lines.empty() ? 0 : 1;
 }

@@ -7,17 +7,18 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <numbers>
 #include <string_view>
 #include <utility>
 
+#include "bench/permutation.hpp"
+#include "bench/text_file.hpp"
 #include "io/error.hpp"
 
 namespace atlasgauge {
 namespace {
 
+constexpr int kMostDecimals = 15;
 constexpr std::uint64_t kGapTexels = 4;
 constexpr std::uint64_t kScaleUnits = 64;     ///< of Site::scale_ in a texel
 constexpr std::uint64_t kSmallestScale = 16;  ///< a quarter texel a quad
@@ -31,14 +32,6 @@ constexpr std::int64_t kRampRise = 3;
 /// Halves of the full scale, along u and v.
 constexpr std::array<std::array<std::uint64_t, 2>, Site::kScaleClasses> kScaleHalves{
     {{2, 2}, {1, 1}, {1, 2}, {2, 1}}};
-
-/// The finalizer of SplitMix64.
-std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
 
 /// Sums over one period before each column: of ramps, and of their rises.
 struct ProfileSums {
@@ -77,7 +70,8 @@ void check(const SiteOptions& options) {
   require(options.chart_side_min_quads > 0 &&
               options.chart_side_max_quads / 2 >= options.chart_side_min_quads,
           "the longest side of a chart must be at least twice the shortest");
-  require(options.decimals >= 6 && options.decimals <= 15, "decimals must be from 6 to 15");
+  require(options.decimals >= 6 && options.decimals <= kMostDecimals,
+          fmt::format("decimals must be from 6 to {}", kMostDecimals));
 }
 
 std::uint32_t texture_columns(std::uint32_t textures) {
@@ -280,6 +274,62 @@ std::uint64_t Site::roof_index(std::size_t column, std::size_t row, std::uint64_
       columns_.roof_points_before(column) * (rows_.length(row) + 1);
   return ground_vertices() + in_rows_before + in_charts_before + j * (columns_.length(column) + 1) +
          i;
+}
+
+namespace {
+
+/// The last of `count` charts of a line whose `begin(chart)`, ascending, is at most `index`.
+template <class Begin>
+std::size_t last_chart_from(std::size_t count, std::uint64_t index, Begin begin) {
+  std::size_t low = 0;
+  for (std::size_t high = count; high - low > 1;) {
+    const std::size_t middle = low + (high - low) / 2;
+    (begin(middle) <= index ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+SiteVertex Site::vertex(std::uint64_t index) const {
+  if (options_.duplicate_vertices) return own_vertex(index);
+  return index < ground_vertices() ? ground_vertex(index) : roof_vertex(index - ground_vertices());
+}
+
+SiteVertex Site::own_vertex(std::uint64_t index) const {
+  const auto row_begin = [&](std::size_t row) { return texcoord_index(0, row, 0, 0); };
+  const std::size_t row = last_chart_from(rows_.charts(), index, row_begin);
+  const auto begin = [&](std::size_t column) { return texcoord_index(column, row, 0, 0); };
+  const std::size_t column = last_chart_from(columns_.charts(), index, begin);
+  const std::uint64_t at = index - begin(column);
+  const std::uint64_t width = columns_.length(column) + 1;
+  const bool roof = columns_.roof_line(column) && rows_.roof_line(row);
+  return {columns_.begin(column) + at % width, rows_.begin(row) + at / width,
+          roof ? roof_height() : 0};
+}
+
+SiteVertex Site::ground_vertex(std::uint64_t index) const {
+  const auto row_begin = [&](std::size_t row) { return ground_index(0, row, 0, 0); };
+  const std::size_t row = last_chart_from(rows_.charts(), index, row_begin);
+  const auto begin = [&](std::size_t column) { return ground_index(column, row, 0, 0); };
+  const std::size_t column = last_chart_from(columns_.charts(), index, begin);
+  const std::uint64_t at = index - begin(column);
+  const std::uint64_t width = columns_.length(column) + (column + 1 == columns_.charts());
+  return {columns_.begin(column) + at % width, rows_.begin(row) + at / width, 0};
+}
+
+SiteVertex Site::roof_vertex(std::uint64_t index) const {
+  const auto row_begin = [&](std::size_t row) {
+    return roof_index(0, row, 0, 0) - ground_vertices();
+  };
+  const std::size_t row = last_chart_from(rows_.charts(), index, row_begin);
+  const auto begin = [&](std::size_t column) {
+    return roof_index(column, row, 0, 0) - ground_vertices();
+  };
+  const std::size_t column = last_chart_from(columns_.charts(), index, begin);
+  const std::uint64_t at = index - begin(column);
+  const std::uint64_t width = columns_.length(column) + 1;
+  return {columns_.begin(column) + at % width, rows_.begin(row) + at / width, roof_height()};
 }
 
 // Answers.
@@ -617,34 +667,11 @@ void add_distributions(const Site& site, const Tally& tally, nlohmann::json& val
   values["sf_discardedArea"] = 0.0;
 }
 
-bool ends_with(std::string_view text, std::string_view end) {
-  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
-}
-
-/// How far a report's value of `key` may be from the answer.
-double tolerance(const std::string& key, const SiteAnswers& answers) {
-  const auto& exact = answers.exact_keys;
-  if (std::find(exact.begin(), exact.end(), key) != exact.end()) return 0;
-  double size = std::abs(answers.values.at(key).get<double>());
-  if (ends_with(key, "_var") || ends_with(key, "_stddev")) {
-    const std::string rms = key.substr(0, key.rfind('_')) + "_rms";
-    const double scale = answers.values.value(rms, 1.0);
-    size = ends_with(key, "_var") ? scale * scale : scale;
-  }
-  return 1e-12 * size;
-}
-
-bool agrees(const std::string& key, const nlohmann::json& got, const SiteAnswers& answers) {
-  const nlohmann::json& want = answers.values.at(key);
-  if (!want.is_number_float() || !got.is_number()) return got == want;
-  return std::abs(got.get<double>() - want.get<double>()) <= tolerance(key, answers);
-}
-
 }  // namespace
 
-SiteAnswers site_answers(const Site& site) {
+Answers site_answers(const Site& site) {
   const Tally tally = tally_charts(site);
-  SiteAnswers answers;
+  Answers answers;
   add_mesh(site, tally, answers.values);
   add_atlas(site, tally, answers.values);
   add_seams(site, tally, answers.values);
@@ -654,128 +681,25 @@ SiteAnswers site_answers(const Site& site) {
   return answers;
 }
 
-nlohmann::json to_json(const SiteAnswers& answers) {
-  return {{"values", answers.values}, {"exact", answers.exact_keys}};
-}
-
-SiteAnswers answers_from_json(const nlohmann::json& json) {
-  return {json.at("values"), json.at("exact").get<std::vector<std::string>>()};
-}
-
-std::vector<std::string> differences(const nlohmann::json& report, const SiteAnswers& answers) {
-  std::vector<std::string> lines;
-  for (const auto& [key, want] : answers.values.items()) {
-    if (!report.contains(key)) {
-      lines.push_back(fmt::format("{}: missing, should be {}", key, want.dump()));
-    } else if (!agrees(key, report.at(key), answers)) {
-      lines.push_back(fmt::format("{}: {} instead of {}", key, report.at(key).dump(), want.dump()));
-    }
-  }
-  return lines;
-}
-
 // Files.
 
 namespace {
 
-constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
-constexpr std::size_t kLongestItemBytes = 64;
-
-/// Text into a file, a block at a time.
-class TextFile {
- public:
-  explicit TextFile(std::string path)
-      : path_(std::move(path)), file_(path_, std::ios::binary), block_(kBlockBytes) {
-    check();
+/// A length in 64ths; they end after six decimals.
+void put_length(std::int64_t units, int decimals, TextFile& file) {
+  static_assert(Site::kLengthUnits * 15625 == 1'000'000);
+  if (units < 0) file.put('-');
+  const auto size = static_cast<std::uint64_t>(std::abs(units));
+  file.put(size / Site::kLengthUnits);
+  std::array<char, 1 + kMostDecimals> fraction;
+  fraction.fill('0');
+  fraction[0] = '.';
+  std::uint64_t millionths = size % Site::kLengthUnits * 15625;
+  for (std::size_t i = 6; i > 0; --i, millionths /= 10) {
+    fraction[i] = static_cast<char>('0' + millionths % 10);
   }
-
-  void put(char c) { *room()++ = c; }
-
-  void put(std::string_view text) {
-    for (std::size_t i = 0; i < text.size(); i += kLongestItemBytes) {
-      char*& at = room();
-      at += text.copy(at, kLongestItemBytes, i);
-    }
-  }
-
-  void put(std::uint64_t number) {
-    char*& at = room();
-    at = std::to_chars(at, at + kLongestItemBytes, number).ptr;
-  }
-
-  /// A length in 64ths; they end after six decimals.
-  void put_length(std::int64_t units, int decimals) {
-    static_assert(Site::kLengthUnits * 15625 == 1'000'000);
-    if (units < 0) put('-');
-    const auto size = static_cast<std::uint64_t>(std::abs(units));
-    put(size / Site::kLengthUnits);
-    char*& at = room();
-    *at = '.';
-    std::uint64_t millionths = size % Site::kLengthUnits * 15625;
-    for (int i = 6; i > 0; --i, millionths /= 10) at[i] = static_cast<char>('0' + millionths % 10);
-    std::memset(at + 7, '0', static_cast<std::size_t>(decimals - 6));
-    at += 1 + decimals;
-  }
-
-  void close() {
-    flush();
-    file_.close();
-    check();
-  }
-
- private:
-  /// Where the next item goes, with room for the longest; the caller moves it on.
-  char*& room() {
-    if (at_ > block_.data() + kBlockBytes - kLongestItemBytes) flush();
-    return at_;
-  }
-
-  void flush() {
-    file_.write(block_.data(), at_ - block_.data());
-    check();
-    at_ = block_.data();
-  }
-
-  void check() const {
-    if (!file_) throw Error(ErrorKind::kResource, path_, 0, errno_text());
-  }
-
-  std::string path_;
-  std::ofstream file_;
-  std::vector<char> block_;
-  char* at_ = block_.data();
-};
-
-/// A bijection of [0, size): Feistel rounds on an even number of bits, repeated until back inside,
-/// which takes four steps on average at most.
-class Permutation {
- public:
-  Permutation(std::uint64_t size, std::uint64_t seed)
-      : size_(size), seed_(seed), half_bits_(static_cast<int>(std::bit_width(size) + 1) / 2) {}
-
-  std::uint64_t operator()(std::uint64_t index) const {
-    do {
-      index = rounds(index);
-    } while (index >= size_);
-    return index;
-  }
-
- private:
-  std::uint64_t rounds(std::uint64_t index) const {
-    const std::uint64_t mask = (std::uint64_t{1} << half_bits_) - 1;
-    std::uint64_t high = index >> half_bits_;
-    std::uint64_t low = index & mask;
-    for (std::uint64_t round = 0; round < 4; ++round) {
-      high ^= mix(seed_ ^ mix(low * 4 + round)) & mask;
-      std::swap(high, low);
-    }
-    return high << half_bits_ | low;
-  }
-
-  std::uint64_t size_;
-  std::uint64_t seed_;
-  int half_bits_;
-};
+  file.put(std::string_view(fraction.data(), 1 + static_cast<std::size_t>(decimals)));
+}
 
 template <class Visit>
 void for_each_chart(const Site& site, Visit visit) {
@@ -786,24 +710,27 @@ void for_each_chart(const Site& site, Visit visit) {
   }
 }
 
-/// Lattice points [x, x + width) × [y, y + height), the site's centre at the origin.
-void put_vertices(const Site& site, std::uint64_t x, std::uint64_t y, std::uint64_t width,
-                  std::uint64_t height, std::int64_t lift, TextFile& obj) {
+/// The site's centre is the origin.
+void put_vertex(const Site& site, const SiteVertex& vertex, TextFile& obj) {
   const int decimals = site.options().decimals;
   const auto centred = [](std::uint64_t at, const SiteAxis& axis) {
     return static_cast<std::int64_t>(Site::kStep * at) -
            static_cast<std::int64_t>(Site::kStep / 2 * axis.quads());
   };
+  obj.put("v ");
+  put_length(centred(vertex.x, site.columns()), decimals, obj);
+  obj.put(' ');
+  put_length(centred(vertex.y, site.rows()), decimals, obj);
+  obj.put(' ');
+  put_length(Site::height(vertex.x) + vertex.lift, decimals, obj);
+  obj.put('\n');
+}
+
+/// Lattice points [x, x + width) × [y, y + height).
+void put_vertices(const Site& site, std::uint64_t x, std::uint64_t y, std::uint64_t width,
+                  std::uint64_t height, std::int64_t lift, TextFile& obj) {
   for (std::uint64_t j = y; j < y + height; ++j) {
-    for (std::uint64_t i = x; i < x + width; ++i) {
-      obj.put("v ");
-      obj.put_length(centred(i, site.columns()), decimals);
-      obj.put(' ');
-      obj.put_length(centred(j, site.rows()), decimals);
-      obj.put(' ');
-      obj.put_length(Site::height(i) + lift, decimals);
-      obj.put('\n');
-    }
+    for (std::uint64_t i = x; i < x + width; ++i) put_vertex(site, {i, j, lift}, obj);
   }
 }
 
@@ -830,7 +757,7 @@ void put_own_vertices(const Site& site, TextFile& obj) {
 
 /// Shortest text that reads back as the same float, behind a blank.
 std::string texcoord_text(float number) {
-  std::array<char, kLongestItemBytes> text{' '};
+  std::array<char, 64> text{' '};
   char* const end = text.data() + text.size();
   return {text.data(), std::to_chars(text.data() + 1, end, number, std::chars_format::fixed).ptr};
 }
@@ -873,11 +800,47 @@ void put_face(const SiteFace& face, TextFile& obj) {
   obj.put('\n');
 }
 
-template <class Order>
-void put_faces(const Site& site, Order order, TextFile& obj) {
+/// Where faces and vertices stand in the file.
+class SiteOrder {
+ public:
+  explicit SiteOrder(const Site& site) {
+    const SiteOptions& options = site.options();
+    if (options.shuffle_seed) faces_.emplace(site.faces(), *options.shuffle_seed);
+    if (options.vertex_shuffle_seed) {
+      vertices_.emplace(site.vertices(), *options.vertex_shuffle_seed);
+    }
+  }
+
+  bool shuffles_vertices() const { return vertices_.has_value(); }
+  std::uint64_t face_at(std::uint64_t place) const { return faces_ ? (*faces_)(place) : place; }
+  std::uint64_t vertex_at(std::uint64_t place) const {
+    return vertices_ ? (*vertices_)(place) : place;
+  }
+  std::uint64_t place_of_vertex(std::uint64_t vertex) const {
+    return vertices_ ? vertices_->inverse(vertex) : vertex;
+  }
+
+ private:
+  std::optional<Permutation> faces_, vertices_;
+};
+
+void put_vertices(const Site& site, const SiteOrder& order, TextFile& obj) {
+  if (order.shuffles_vertices()) {
+    for (std::uint64_t i = 0; i < site.vertices(); ++i) {
+      put_vertex(site, site.vertex(order.vertex_at(i)), obj);
+    }
+  } else if (site.options().duplicate_vertices) {
+    put_own_vertices(site, obj);
+  } else {
+    put_shared_vertices(site, obj);
+  }
+}
+
+void put_faces(const Site& site, const SiteOrder& order, TextFile& obj) {
   std::optional<std::uint32_t> texture;
   for (std::uint64_t i = 0; i < site.faces(); ++i) {
-    const SiteFace face = site.face(order(i));
+    SiteFace face = site.face(order.face_at(i));
+    for (std::uint64_t& v : face.v) v = order.place_of_vertex(v);
     if (face.texture != texture) {
       obj.put("usemtl m");
       obj.put(std::uint64_t{face.texture});
@@ -889,20 +852,12 @@ void put_faces(const Site& site, Order order, TextFile& obj) {
 }
 
 void write_obj(const Site& site, const std::string& path) {
+  const SiteOrder order(site);
   TextFile obj(path);
   obj.put("mtllib " + site.options().name + ".mtl\n");
-  if (site.options().duplicate_vertices) {
-    put_own_vertices(site, obj);
-  } else {
-    put_shared_vertices(site, obj);
-  }
+  put_vertices(site, order, obj);
   put_texcoords(site, obj);
-  if (site.options().shuffle_seed) {
-    put_faces(site, Permutation(site.faces(), *site.options().shuffle_seed), obj);
-  } else {
-    put_faces(
-        site, [](std::uint64_t i) { return i; }, obj);
-  }
+  put_faces(site, order, obj);
   obj.close();
 }
 
@@ -985,17 +940,11 @@ void write_images(const Site& site, const std::string& directory) {
   }
 }
 
-void write_answers(const Site& site, const std::string& path) {
-  TextFile file(path);
-  file.put(to_json(site_answers(site)).dump(1) + "\n");
-  file.close();
-}
-
 }  // namespace
 
 void write_site(const Site& site, const std::string& directory) {
   const std::string stem = directory + "/" + site.options().name;
-  write_answers(site, stem + ".answers.json");
+  write_answers(site_answers(site), stem + ".answers.json");
   write_mtl(site, stem + ".mtl");
   write_images(site, directory);
   write_obj(site, stem + ".obj");

@@ -3,10 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "bench/answers.hpp"
 
 namespace atlasgauge {
 
@@ -24,6 +25,7 @@ struct SiteOptions {
   std::uint32_t chart_side_min_quads = 7;
   std::uint32_t chart_side_max_quads = 60;  ///< at least twice the minimum
   std::optional<std::uint64_t> shuffle_seed;
+  std::optional<std::uint64_t> vertex_shuffle_seed;
   bool duplicate_vertices = false;  ///< every chart has vertices of its own: seams need a weld
   int decimals = 6;                 ///< of positions; 6 are exact, more are zeros
 };
@@ -79,6 +81,12 @@ struct SiteFace {
   std::uint32_t texture;
 };
 
+/// A vertex by its place: a point of the ground's lattice, perhaps lifted.
+struct SiteVertex {
+  std::uint64_t x, y;  ///< in quads
+  std::int64_t lift;   ///< in length units
+};
+
 /// A textured site whose every element is a function of its index.
 ///
 /// The ground is a lattice of nx × ny quads of two triangles, a profile of level strips and ramps
@@ -111,6 +119,8 @@ class Site {
   SiteChart chart(std::size_t column, std::size_t row) const;
   /// Faces run chart by chart, charts row by row. Not shuffled.
   SiteFace face(std::uint64_t index) const;
+  /// Not shuffled.
+  SiteVertex vertex(std::uint64_t index) const;
 
   /// Texels of a quad's sides in a scale class, in kTexelUnits.
   std::array<std::uint64_t, 2> quad_texels(std::size_t scale_class) const;
@@ -135,27 +145,17 @@ class Site {
   std::uint64_t roof_index(std::size_t column, std::size_t row, std::uint64_t i,
                            std::uint64_t j) const;
 
+  SiteVertex own_vertex(std::uint64_t index) const;
+  SiteVertex ground_vertex(std::uint64_t index) const;
+  SiteVertex roof_vertex(std::uint64_t index) const;
+
   SiteOptions options_;
   SiteAxis columns_;
   SiteAxis rows_;
   std::uint64_t scale_;  ///< 64ths of a texel a quad at full scale
 };
 
-/// What a report on a site must say, by formula from its parameters.
-struct SiteAnswers {
-  nlohmann::json values;                ///< by the keys of the report
-  std::vector<std::string> exact_keys;  ///< reals that are dyadic, terms and sums alike
-};
-
-SiteAnswers site_answers(const Site& site);
-
-/// As a file holds them: {"values": {...}, "exact": [...]}.
-nlohmann::json to_json(const SiteAnswers& answers);
-SiteAnswers answers_from_json(const nlohmann::json& json);
-
-/// A line for every answer that `report` misses or contradicts. Reals that are not exact may differ
-/// by 1e-12 of themselves; a variance by 1e-12 of the mean square, since its own size may be 0.
-std::vector<std::string> differences(const nlohmann::json& report, const SiteAnswers& answers);
+Answers site_answers(const Site& site);
 
 /// Writes NAME.obj, NAME.mtl, the images and NAME.answers.json into a directory. Needs a few
 /// megabytes, whatever the size of the site.

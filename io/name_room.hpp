@@ -6,10 +6,11 @@
 namespace atlasgauge {
 
 /// Names of materials and files are the only part of a model that stays in memory while it is
-/// read, so there is a limit to them.
+/// read, so there is a limit to them: 100 000 materials with an image each, in a folder with a path
+/// of a hundred bytes.
 class NameRoom {
  public:
-  static constexpr std::size_t kMaxBytes = std::size_t{32} << 20;
+  static constexpr std::size_t kMaxBytes = std::size_t{48} << 20;
 
   /// `path` is the file that errors blame.
   explicit NameRoom(std::string path);

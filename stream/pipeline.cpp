@@ -123,6 +123,10 @@ std::map<std::string, Quantiles> select_quantiles(
   return quantiles;
 }
 
+std::uint64_t memory_bytes(const TextureSlots& textures) {
+  return textures.memory_bytes() + SlotFrames::memory_bytes(textures.slots.size());
+}
+
 }  // namespace
 
 MeshFacts stream_model(const Engine& engine, const std::string& path, Warnings& warnings,
@@ -136,6 +140,9 @@ MeshFacts stream_model(const Engine& engine, const std::string& path, Warnings& 
   facts.invalid_polygons = mesh.invalid_polygons;
   facts.box = mesh.box;
   facts.textures = resolve_textures(summary);
+  summary = {};
+  const Reservation textures_memory =
+      engine.budget.reserve(memory_bytes(facts.textures), "a model with so many textures");
 
   Weld weld = weld_vertices(engine, mesh);
   facts.duplicate_positions = weld.duplicates;

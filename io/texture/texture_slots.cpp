@@ -179,6 +179,12 @@ TextureSlots virtual_slot(const std::string& obj_path, std::size_t materials,
 
 }  // namespace
 
+std::uint64_t TextureSlots::memory_bytes() const {
+  std::uint64_t bytes = slots.capacity() * sizeof(TextureSlot);
+  for (const TextureSlot& slot : slots) bytes += slot.name.capacity() + slot.path.capacity();
+  return bytes + of_material.capacity() * sizeof(SlotId);
+}
+
 TextureSlots resolve_textures(const std::string& obj_path,
                               const std::vector<std::string>& mtllib_lines,
                               const std::vector<std::string>& material_names,

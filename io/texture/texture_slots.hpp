@@ -32,6 +32,8 @@ struct TextureSlots {
   SlotId without_material = kNone<SlotId>;  ///< for faces before any `usemtl`
   bool has_images = false;                  ///< some material names an image, readable or not
   bool unit_slot = false;                   ///< the virtual slot, 1x1 for lack of `-t`
+
+  std::uint64_t memory_bytes() const;
 };
 
 /// Reads the size of an image; throws Error(kInput) if it cannot be read.

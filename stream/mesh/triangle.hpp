@@ -42,6 +42,8 @@ struct SlotFrame {
 /// The frames by SlotId; no slot has no size.
 class SlotFrames {
  public:
+  static std::uint64_t memory_bytes(std::size_t slots) { return slots * sizeof(SlotFrame); }
+
   SlotFrames() = default;
   explicit SlotFrames(std::vector<SlotFrame> frames) : frames_(std::move(frames)) {}
   const SlotFrame& of(SlotId slot) const {

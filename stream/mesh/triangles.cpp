@@ -126,6 +126,7 @@ SlotId slot_of(const TextureSlots& slots, MaterialId material) {
 SlotFrames frame_slots(const Engine& engine, MeshStore& mesh, Weld& weld,
                        const TextureSlots& slots) {
   std::vector<SlotFrame> frames;
+  frames.reserve(slots.slots.size());
   for (const TextureSlot& slot : slots.slots) {
     SlotFrame& frame = frames.emplace_back();
     frame.readable = slot.readable;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -496,6 +497,17 @@ std::vector<Variant> variants() {
                 o.shuffle_seed = 6;
                 o.duplicate_vertices = true;
               }),
+      variant("ShuffledVertices", [](SiteOptions& o) { o.vertex_shuffle_seed = 7; }),
+      variant("ShuffledVerticesOfTheirOwn",
+              [](SiteOptions& o) {
+                o.vertex_shuffle_seed = 8;
+                o.duplicate_vertices = true;
+              }),
+      variant("ShuffledFacesAndVertices",
+              [](SiteOptions& o) {
+                o.shuffle_seed = 9;
+                o.vertex_shuffle_seed = 10;
+              }),
       variant("SixTextures",
               [](SiteOptions& o) {
                 o.faces = 900;
@@ -589,6 +601,19 @@ TEST(Site, ShuffledHasTheSameFacesInAnotherOrder) {
   EXPECT_NE(shuffled, otherwise);
 }
 
+TEST(Site, ShuffledVerticesAreTheSameVerticesInAnotherOrder) {
+  SiteOptions options = small_site();
+  std::vector<std::string> ordered = lines_of(options);
+  options.vertex_shuffle_seed = 1;
+  std::vector<std::string> shuffled = lines_of(options);
+  EXPECT_NE(shuffled, ordered);
+  const auto is_vertex = [](const std::string& line) { return line.rfind("v ", 0) == 0; };
+  std::erase_if(ordered, std::not_fn(is_vertex));
+  std::erase_if(shuffled, std::not_fn(is_vertex));
+  EXPECT_NE(shuffled, ordered);
+  EXPECT_TRUE(std::is_permutation(shuffled.begin(), shuffled.end(), ordered.begin()));
+}
+
 TEST(Site, IsTheSameEveryTime) {
   SiteOptions options = small_site();
   options.shuffle_seed = 1;
@@ -650,7 +675,7 @@ class SiteDifferences : public testing::Test {
     return differences(report, answers);
   }
 
-  SiteAnswers answers;
+  Answers answers;
   nlohmann::json report;
 };
 

@@ -28,6 +28,10 @@ void redirect(int to, const std::filesystem::path& path) {
   ::close(file);
 }
 
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
 }  // namespace
 
 Child::Child(const ChildSetup& setup) {
@@ -65,11 +69,14 @@ ProgramResult Child::wait() {
   int status = 0;
   rusage usage{};
   ::wait4(std::exchange(pid_, -1), &status, 0, &usage);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
   ProgramResult result;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.out = text_of(dir_.path() / "out");
   result.err = text_of(dir_.path() / "err");
   result.peak_resident_kib = usage.ru_maxrss;
+  result.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  result.wall_seconds = wall.count();
   return result;
 }
 

@@ -11,6 +11,8 @@ struct ProgramResult {
   std::string out;
   std::string err;
   long peak_resident_kib = 0;
+  double cpu_seconds = 0;  ///< user and system
+  double wall_seconds = 0;
 };
 
 /// Runs a program to its end; `arguments` without its name, `environment` as NAME=VALUE on top of

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/error.hpp"
+#include "io/name_room.hpp"
 #include "tests/support/temp_dir.hpp"
 
 namespace atlasgauge {
@@ -113,8 +114,9 @@ TEST(MtlReaderTest, OverlongLinesAreIgnoredWithAWarning) {
 
 TEST(MtlReaderTest, TooManyNamesAreRefused) {
   const std::string name(60000, 'n');
+  const std::size_t too_many = NameRoom::kMaxBytes / name.size() + 1;
   std::string text;
-  for (int i = 0; i < 700; ++i) text += "newmtl " + name + "\n";
+  for (std::size_t i = 0; i < too_many; ++i) text += "newmtl " + name + "\n";
   try {
     read(text);
     FAIL();

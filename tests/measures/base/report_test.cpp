@@ -113,6 +113,18 @@ TEST(ReportTest, EveryTextureHasItsKeyInNumericOrder) {
   EXPECT_EQ(place_of(keys, "textures") + 1, place_of(keys, "texture_0"));
 }
 
+// Would take minutes if every key were looked for among those before.
+TEST(ReportTest, KeysOfVeryManyTexturesComeOnceEach) {
+  constexpr std::uint64_t kTextures = 100'000;
+  Report report;
+  report.set("ntex", kTextures);
+  for (std::uint64_t i = 0; i < kTextures; ++i) {
+    report.set("texture_" + std::to_string(i), Json::array());
+  }
+  const std::size_t others = Report().to_json().size();
+  EXPECT_EQ(report.to_json().size(), others + kTextures);
+}
+
 TEST(ReportTest, SettingAgainReplaces) {
   Report report;
   report.set("area", 1.0);
