@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <boost/iostreams/categories.hpp>
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filter/zstd.hpp>
@@ -93,7 +94,7 @@ class PlainSource : public ByteSource {
   Descriptor file_;
   std::array<char, kMagicBytes> magic_{};
   std::size_t magic_bytes_ = 0;
-  std::uint64_t consumed_bytes_ = 0;  // with the magic bytes once they are handed out
+  std::atomic<std::uint64_t> consumed_bytes_ = 0;  // with the magic bytes once they are handed out
   std::uint64_t read_bytes_ = 0;
   std::uint64_t file_bytes_ = 0;
 };

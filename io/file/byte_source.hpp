@@ -13,7 +13,8 @@ class ByteSource {
   virtual ~ByteSource() = default;
   /// Fills up to `bytes` bytes; returns how many, 0 only at the end. Throws Error(kInput).
   virtual std::size_t read(char* to, std::size_t bytes) = 0;
-  /// Position in the file on disk (compressed bytes for a compressed one), for progress.
+  /// Position in the file on disk (compressed bytes for a compressed one), for progress: any thread
+  /// may ask while another reads.
   virtual std::uint64_t consumed_bytes() const = 0;
   /// Size of the file on disk; 0 if it has none (a pipe).
   virtual std::uint64_t file_bytes() const = 0;

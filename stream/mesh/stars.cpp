@@ -119,30 +119,33 @@ class StarCounter {
   NeighbourCount neighbours_;
 };
 
-/// A star with more corners than memory: its neighbours are the nodes and its corners the links of
-/// a graph whose components are the fans.
+/// A star with more corners than memory: its neighbours, numbered in order, are the nodes and its
+/// corners the links of a graph whose components are the fans.
 class HotStar {
  public:
-  HotStar(const Engine& engine, std::uint64_t vertices) : engine_(engine), vertices_(vertices) {}
+  explicit HotStar(const Engine& engine) : engine_(engine) {}
 
   VertexStar count(Spill<StarCorner> corners) {
     const std::uint64_t corner_count = corners.size();
     SpillWriter<std::uint32_t> neighbours(engine_.scratch);
     SpillWriter<Pair> pairs(engine_.scratch);
-    SpillWriter<Link> links(engine_.scratch);
+    SpillWriter<Pair> links(engine_.scratch);
     SpillReader<StarCorner> reader(corners, SpillReader<StarCorner>::Mode::kConsume);
     for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
       for (const StarCorner& corner : block) {
         neighbours.push(corner.a);
         neighbours.push(corner.b);
         links.push({corner.a, corner.b});
+        if (!owns_face(corner)) continue;
         const auto [low, high] = pair_of(corner);
-        if (owns_face(corner)) pairs.push({low, high});
+        pairs.push({low, high});
       }
     }
     const NeighbourCount edges = count_neighbours(neighbours.finish());
+    Spill<Pair> half = number_low_ends(links.finish());
+    Spill<Pair> numbered = number_low_ends(std::move(half));
     return {corner_count, edges.boundary_edges(), edges.nonmanifold_edge(),
-            count_fans(links.finish(), edges.edges()) == 1, count_duplicates(pairs.finish())};
+            count_fans(std::move(numbered), edges.edges()) == 1, count_duplicates(pairs.finish())};
   }
 
  private:
@@ -154,17 +157,43 @@ class HotStar {
   NeighbourCount count_neighbours(Spill<std::uint32_t> neighbours) {
     Spill<std::uint32_t> sorted = sort_spill(engine_, std::move(neighbours), std::less<>());
     NeighbourCount count;
-    SpillReader<std::uint32_t> reader(sorted);
+    SpillWriter<std::uint32_t> distinct(engine_.scratch);
+    SpillReader<std::uint32_t> reader(sorted, SpillReader<std::uint32_t>::Mode::kConsume);
     std::uint32_t neighbour = 0;
-    while (reader.read(neighbour)) count.add(neighbour);
+    while (reader.read(neighbour)) {
+      if (!count.add(neighbour)) distinct.push(neighbour);
+    }
     count.close();
+    distinct_ = distinct.finish();
     return count;
   }
 
-  std::uint64_t count_fans(Spill<Link> links, std::uint64_t neighbours) {
-    Spill<Label> labels = label_nodes(engine_, std::move(links), vertices_, LinkRule::kAll);
-    const std::uint64_t others = vertices_ - neighbours;  // each a component of its own
-    return count_components(labels) - others;
+  /// Puts the number of a neighbour in its place, at one end of every pair, and swaps the ends.
+  Spill<Pair> number_low_ends(Spill<Pair> pairs) {
+    Spill<Pair> sorted = sort_spill(engine_, std::move(pairs), std::less<>());
+    SpillReader<Pair> reader(sorted, SpillReader<Pair>::Mode::kConsume);
+    SpillReader<std::uint32_t> distinct(distinct_);
+    SpillWriter<Pair> numbered(engine_.scratch);
+    std::uint32_t neighbour = 0;
+    std::uint32_t numbers = 0;
+    Pair pair{};
+    while (reader.read(pair)) {
+      while (numbers == 0 || neighbour != pair.low) {
+        distinct.read(neighbour);
+        ++numbers;
+      }
+      numbered.push({pair.high, numbers - 1});
+    }
+    return numbered.finish();
+  }
+
+  std::uint64_t count_fans(Spill<Pair> pairs, std::uint64_t neighbours) {
+    SpillWriter<Link> links(engine_.scratch);
+    SpillReader<Pair> reader(pairs, SpillReader<Pair>::Mode::kConsume);
+    Pair pair{};
+    while (reader.read(pair)) links.push({pair.low, pair.high});
+    Spill<Label> labels = label_nodes(engine_, links.finish(), neighbours, LinkRule::kAll);
+    return count_components(labels);
   }
 
   std::uint64_t count_duplicates(Spill<Pair> pairs) {
@@ -181,7 +210,7 @@ class HotStar {
   }
 
   const Engine& engine_;
-  std::uint64_t vertices_;
+  Spill<std::uint32_t> distinct_;  // neighbours, in order
 };
 
 KeyedGroups<StarCorner>::Buckets distribute_corners(const Engine& engine, Spill<FaceRecord>& faces,
@@ -228,7 +257,7 @@ std::uint64_t group_stars(const Engine& engine, Spill<FaceRecord>& faces, Spill<
   std::vector<StarOutput> outputs;
   for (std::size_t i = 0; i < engine.workers.count(); ++i) outputs.emplace_back(sinks.of_worker(i));
   std::vector<StarCounter> counters(engine.workers.count());
-  HotStar hot(engine, vertices);
+  HotStar hot(engine);
   KeyedGroups<StarCorner> groups(
       engine,
       [&](std::size_t worker, std::span<StarCorner> star) {
