@@ -14,7 +14,7 @@ namespace {
 /// Large buffers go back to the system when they are freed: resident memory is what the limit is
 /// about, and the allocator's habit of keeping them would break it.
 void return_freed_memory() {
-  ::mallopt(M_MMAP_THRESHOLD, 256 << 10);
+  ::mallopt(M_MMAP_THRESHOLD, 64 << 10);
   ::mallopt(M_ARENA_MAX, 2);
 }
 

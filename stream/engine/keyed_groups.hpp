@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -89,10 +90,14 @@ class KeyedGroups {
     return {ranges, partition.finish()};
   }
 
-  KeyedGroups(const Engine& engine, OnGroup on_group, OnHotKey on_hot_key)
+  /// `largest_group`: keys with more records are handed over as a Spill even if they fit in memory,
+  /// for users whose own memory grows with the group.
+  KeyedGroups(const Engine& engine, OnGroup on_group, OnHotKey on_hot_key,
+              std::size_t largest_group = ~std::size_t{0})
       : engine_(engine),
         on_group_(std::move(on_group)),
         on_hot_key_(std::move(on_hot_key)),
+        largest_group_(largest_group),
         memory_(engine.workers.count()) {}
 
   /// Consumes the buckets. Uses what the budget has free, and needs about three blocks of it.
@@ -114,6 +119,7 @@ class KeyedGroups {
       });
       for (Memory& memory : memory_) memory = {};
     }
+    for (Spill<Record>& group : std::exchange(large_groups_, {})) hand_over(std::move(group));
     for (const std::size_t bucket : large) {
       split(std::move(buckets[bucket]), ranges.keys_of(bucket));
     }
@@ -140,7 +146,7 @@ class KeyedGroups {
   void sort_and_call(std::size_t worker, Spill<Record> bucket,
                      std::pair<std::uint32_t, std::uint32_t> keys, std::uint64_t worker_bytes) {
     Memory& memory = memory_[worker];
-    memory.loaded.resize(bucket.size());
+    resize(memory.loaded, bucket.size());
     SpillReader<Record>(bucket, SpillReader<Record>::Mode::kConsume).read(memory.loaded);
     bucket.clear();
     const std::uint64_t key_count = keys.second - keys.first;
@@ -151,12 +157,18 @@ class KeyedGroups {
     call_groups(worker, counting ? memory.sorted : memory.loaded);
   }
 
+  /// Without a moment in which the old and the new memory are both there.
+  static void resize(std::vector<Record>& records, std::size_t size) {
+    if (records.capacity() < size) std::vector<Record>().swap(records);
+    records.resize(size);
+  }
+
   static void counting_sort(Memory& memory, std::pair<std::uint32_t, std::uint32_t> keys) {
     memory.ends.assign(keys.second - keys.first, 0);
     for (const Record& record : memory.loaded) ++memory.ends[record.key() - keys.first];
     std::uint32_t end = 0;
     for (std::uint32_t& count : memory.ends) count = std::exchange(end, end + count);
-    memory.sorted.resize(memory.loaded.size());
+    resize(memory.sorted, memory.loaded.size());
     for (const Record& record : memory.loaded) {
       memory.sorted[memory.ends[record.key() - keys.first]++] = record;
     }
@@ -170,8 +182,22 @@ class KeyedGroups {
   void call_groups(std::size_t worker, std::vector<Record>& records) {
     for (std::size_t begin = 0, end = 0; begin < records.size(); begin = end) {
       while (end < records.size() && records[end].key() == records[begin].key()) ++end;
-      on_group_(worker, std::span<Record>(&records[begin], end - begin));
+      const std::span<Record> group(&records[begin], end - begin);
+      group.size() > largest_group_ ? set_aside(group) : on_group_(worker, group);
     }
+  }
+
+  void set_aside(std::span<const Record> group) {
+    SpillWriter<Record> writer(engine_.scratch);
+    writer.append(group);
+    const std::lock_guard lock(large_groups_mutex_);
+    large_groups_.push_back(writer.finish());
+  }
+
+  void hand_over(Spill<Record> group) {
+    Record first{};
+    SpillReader<Record>(group).read(first);
+    on_hot_key_(first.key(), std::move(group));
   }
 
   /// Distributes a large bucket by narrower ranges, or hands over its only key.
@@ -198,7 +224,10 @@ class KeyedGroups {
   const Engine& engine_;
   OnGroup on_group_;
   OnHotKey on_hot_key_;
+  std::size_t largest_group_;
   std::vector<Memory> memory_;
+  std::mutex large_groups_mutex_;
+  std::vector<Spill<Record>> large_groups_;
 };
 
 }  // namespace atlasgauge

@@ -13,6 +13,10 @@
 namespace atlasgauge {
 namespace {
 
+/// A vertex with more corners than this is streamed through sorts of its own: counting it in memory
+/// takes 28 bytes a corner besides the corners.
+constexpr std::size_t kLargestStar = 1 << 15;
+
 /// A corner of a face at vertex v, and the two other vertices of the face.
 struct StarCorner {
   std::uint32_t v, a, b;
@@ -263,7 +267,8 @@ std::uint64_t group_stars(const Engine& engine, Spill<FaceRecord>& faces, Spill<
       [&](std::size_t worker, std::span<StarCorner> star) {
         outputs[worker].push(counters[worker].count(star));
       },
-      [&](std::uint32_t, Spill<StarCorner> star) { outputs[0].push(hot.count(std::move(star))); });
+      [&](std::uint32_t, Spill<StarCorner> star) { outputs[0].push(hot.count(std::move(star))); },
+      kLargestStar);
   groups.process(distribute_corners(engine, faces, facts, vertices));
   std::uint64_t boundary_vertices = 0;
   for (StarOutput& output : outputs) boundary_vertices += output.finish();

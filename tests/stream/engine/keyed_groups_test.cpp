@@ -35,7 +35,8 @@ struct Groups {
   }
 };
 
-Groups group(TestEngine& engine, const std::vector<Pebble>& pebbles, std::uint32_t key_end) {
+Groups group(TestEngine& engine, const std::vector<Pebble>& pebbles, std::uint32_t key_end,
+             std::size_t largest_group = ~std::size_t{0}) {
   const std::uint64_t free_bytes = engine.budget.free_bytes();
   const KeyRanges ranges =
       KeyedGroups<Pebble>::plan(engine, pebbles.size(), 0, key_end, free_bytes, free_bytes / 2);
@@ -69,7 +70,8 @@ Groups group(TestEngine& engine, const std::vector<Pebble>& pebbles, std::uint32
           numbers.push_back(pebble.number);
         }
         groups.add(key, numbers);
-      });
+      },
+      largest_group);
   keyed.process({ranges, std::move(buckets)});
   return groups;
 }
@@ -103,6 +105,16 @@ class KeyedGroupsTest : public testing::TestWithParam<std::tuple<std::uint64_t, 
 INSTANTIATE_TEST_SUITE_P(BudgetsAndWorkers, KeyedGroupsTest,
                          testing::Combine(testing::Values(8, 12, 40, 4096),
                                           testing::Values(1, 2, 3)));
+
+TEST_P(KeyedGroupsTest, GroupsAboveTheLargestAreHandedOverAsSpills) {
+  const auto [kib, workers] = GetParam();
+  TestEngine engine({.budget_bytes = (kib << 10) * workers, .workers = workers});
+  const auto pebbles =
+      pebbles_of(400, [](std::uint32_t i) { return i < 300 ? i / 3 : 100 + i / 50; });
+  const Groups groups = group(engine, pebbles, 200, 3);
+  EXPECT_EQ(groups.by_key, expected_groups(pebbles));
+  EXPECT_EQ(groups.hot_keys, 2U);
+}
 
 TEST_P(KeyedGroupsTest, NothingHasNoGroups) {
   EXPECT_TRUE(grouped({}, 10).by_key.empty());
