@@ -172,6 +172,7 @@ TEST_F(CommandTest, HelpAndVersionExitWithZero) {
 }
 
 TEST_F(CommandTest, PeakResidentStaysUnderTheMemoryLimit) {
+  if (ATLASGAUGE_SANITIZED) GTEST_SKIP() << "sanitizers take memory of their own";
   SiteOptions options;
   options.faces = 1'000'000;
   options.texture_size_texels = 1024;
