@@ -1,15 +1,12 @@
 #include "io/progress_bar.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
 #include <cstdio>
 
 namespace atlasgauge {
 namespace {
 
-constexpr int kWidth = 40;
+constexpr char kBar[] = "========================================";
+constexpr int kWidth = sizeof(kBar) - 1;
 
 // Nobody is told when standard error takes no more: there is no one left to tell.
 void put(const std::string& text) {
@@ -20,13 +17,10 @@ void put(const std::string& text) {
 
 void ProgressBar::update(const std::string& stage, double fraction) noexcept {
   if (!shown_) return;
-  std::array<char, 256> line{};
   const int filled = static_cast<int>(kWidth * fraction);
-  const auto [end, size] =
-      fmt::format_to_n(line.data(), line.size(), "\r{:<12} [{:=<{}}{:<{}}] {:3.0f} %", stage, "",
-                       filled, "", kWidth - filled, 100 * fraction);
   const std::lock_guard lock(mutex_);
-  std::fwrite(line.data(), 1, std::min(size, line.size()), stderr);
+  std::fprintf(stderr, "\r%-12s [%.*s%*s] %3.0f %%", stage.c_str(), filled, kBar, kWidth - filled,
+               "", 100 * fraction);
   drawn_ = true;
 }
 

@@ -15,7 +15,6 @@ namespace atlasgauge {
 inline constexpr TexCoord kNoTexCoord{std::numeric_limits<float>::quiet_NaN(),
                                       std::numeric_limits<float>::quiet_NaN()};
 
-
 /// Bits that order and identify texture coordinates; readers store -0 as +0.
 inline std::uint64_t bits_of(const TexCoord& t) {
   return std::bit_cast<std::uint64_t>(t);
