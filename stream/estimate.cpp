@@ -56,9 +56,9 @@ class PageCounter {
  public:
   void add(const FaceRecord& face) {
     for (int k = 0; k < 3; ++k) {
-      note(positions_, raw(face.v[k]) / PageLayout<Position>::kRecords);
+      positions_.insert(raw(face.v[k]) / PageLayout<Position>::kRecords);
       if (face.t[k] != kNone<TexCoordId>) {
-        note(texcoords_, raw(face.t[k]) / PageLayout<TexCoord>::kRecords);
+        texcoords_.insert(raw(face.t[k]) / PageLayout<TexCoord>::kRecords);
       }
     }
   }
@@ -69,8 +69,6 @@ class PageCounter {
   }
 
  private:
-  static void note(std::unordered_set<std::size_t>& pages, std::size_t page) { pages.insert(page); }
-
   std::unordered_set<std::size_t> positions_, texcoords_;
 };
 
