@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <system_error>
 #include <unordered_set>
@@ -11,6 +12,8 @@
 
 #include "io/bytes.hpp"
 #include "io/error.hpp"
+#include "io/file/byte_source.hpp"
+#include "io/ids.hpp"
 #include "io/obj/obj_sample.hpp"
 #include "io/warnings.hpp"
 #include "stream/engine/labels.hpp"
@@ -46,7 +49,8 @@ constexpr double kTexCoordsPerVertex = 1.125;
 constexpr double kFaceLineBytes = 36;
 constexpr double kTexCoordLineBytes = 22;
 
-/// No statement of an OBJ needs more scratch than the face of "f 1 2 3 4...", 2 bytes of text each.
+/// No text is denser than a polygon of one-digit corners: "f 1 2 3 4...".
+constexpr double kLeastBytesPerFace = 2;
 constexpr double kMostScratchPerTextByte = 120;
 /// Of the compression of text, hardly ever reached.
 constexpr double kMostTextPerFileByte = 40;
@@ -155,11 +159,19 @@ std::uint64_t least(double bytes) {
   return static_cast<std::uint64_t>(bytes / kTolerance);
 }
 
-/// A bound for any text of this many bytes on disk.
-double most_scratch_bytes(const std::string& path) {
-  std::error_code error;
-  const auto file_bytes = static_cast<double>(std::filesystem::file_size(path, error));
-  return error ? 0 : file_bytes * kMostTextPerFileByte * kMostScratchPerTextByte;
+std::uint64_t labels_that_fit(const MemoryPlan& plan) {
+  return label_capacity(plan.engine_bytes - plan.resident_bytes, plan.block_bytes);
+}
+
+/// Whether the densest text of a file's size would fit.
+bool fits_by_size(const std::string& path, const MemoryPlan& plan, const std::string& directory) {
+  const std::unique_ptr<ByteSource> source = open_byte_source(path);
+  const double text_bytes =
+      static_cast<double>(source->file_bytes()) * (source->is_plain() ? 1 : kMostTextPerFileByte);
+  const double nodes = std::min(static_cast<double>(kMaxElements), text_bytes / kLeastBytesPerFace);
+  if (nodes > static_cast<double>(labels_that_fit(plan))) return false;
+  const std::optional<std::uint64_t> free_bytes = free_space(directory);
+  return !free_bytes || text_bytes * kMostScratchPerTextByte <= static_cast<double>(*free_bytes);
 }
 
 }  // namespace
@@ -211,10 +223,8 @@ CostEstimate estimate_cost(const ModelGuess& guess, const MemoryPlan& plan) {
 
 void require_resources(const ModelGuess& guess, const CostEstimate& cost, const MemoryPlan& plan,
                        const std::string& directory) {
-  const std::uint64_t labels =
-      label_capacity(plan.engine_bytes - plan.resident_bytes, plan.block_bytes);
   const std::uint64_t nodes = least(std::max(guess.faces, guess.positions));
-  if (nodes > labels) {
+  if (nodes > labels_that_fit(plan)) {
     throw Error(ErrorKind::kResource,
                 fmt::format("a model of about {:.0f} million faces or vertices needs more memory "
                             "than {} with {} threads; give {} or more",
@@ -233,10 +243,7 @@ void require_resources_for(const std::string& path, const MemoryPlan& plan,
                            const std::string& directory) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return;
-  const std::optional<std::uint64_t> free_bytes = free_space(directory);
-  const double bound = most_scratch_bytes(path);
-  const bool fits_disk = !free_bytes || bound <= static_cast<double>(*free_bytes);
-  if (fits_disk && bound <= 1e9) return;
+  if (fits_by_size(path, plan, directory)) return;
   const ModelGuess guess = guess_model(path);
   require_resources(guess, estimate_cost(guess, plan), plan, directory);
 }

@@ -119,6 +119,18 @@ TEST(EstimateTest, TooManyNodesForTheMemoryAreRefusedWithALimitThatDoes) {
   EXPECT_EQ(refusal_of(scan_of(1e9), {}, plan_memory(wishes, 2), "/"), "");
 }
 
+TEST(EstimateTest, ASampleIsTakenWhereTheSizeOfTheFileDoesNotSettleIt) {
+  const TempDir dir;
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 20'000; ++i) text += "f 1 2 3\n";
+  const std::string model = dir.write("a.obj", text);
+  MemoryWishes wishes;
+  wishes.engine_bytes = 2 * kMiB;
+  const MemoryPlan plan = plan_memory(wishes, 2);
+  EXPECT_NO_THROW(require_resources_for(model, plan, dir.path().string()));
+  EXPECT_THROW(require_resources_for(model, plan, "/proc"), Error) << "which has no free space";
+}
+
 TEST(EstimateTest, MissingDirectoryIsLeftToTheRun) {
   CostEstimate cost;
   cost.scratch_file_bytes = std::uint64_t{1} << 60;
