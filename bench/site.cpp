@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bench/permutation.hpp"
+#include "bench/site_texels.hpp"
 #include "bench/text_file.hpp"
 #include "io/error.hpp"
 
@@ -23,7 +24,8 @@ constexpr std::uint64_t kGapTexels = 4;
 constexpr std::uint64_t kScaleUnits = 64;     ///< of Site::scale_ in a texel
 constexpr std::uint64_t kSmallestScale = 16;  ///< a quarter texel a quad
 constexpr std::uint32_t kSmallestSize = 16;
-constexpr std::uint32_t kLargestSize = 32768;  ///< with 1/128 texels: 22 of a float's 24 bits
+constexpr std::uint32_t kLargestSize = 65536;  ///< with 1/128 texels: 23 of a float's 24 bits
+constexpr std::uint32_t kLargestJpegSize = 32768;
 
 /// A profile repeats after 16 columns: +1 is a ramp up, -1 a ramp down.
 constexpr std::array<int, 16> kProfile{0, 0, 1, 1, 1, 0, 0, -1, 0, 0, 0, -1, -1, 0, 0, 0};
@@ -67,6 +69,9 @@ void check(const SiteOptions& options) {
               options.texture_size_texels <= kLargestSize,
           fmt::format("texture size {}: a power of two from {} to {} is needed",
                       options.texture_size_texels, kSmallestSize, kLargestSize));
+  require(
+      options.image_format != ImageFormat::kJpg || options.texture_size_texels <= kLargestJpegSize,
+      fmt::format("a JPEG has at most {} texels a side here", kLargestJpegSize));
   require(options.chart_side_min_quads > 0 &&
               options.chart_side_max_quads / 2 >= options.chart_side_min_quads,
           "the longest side of a chart must be at least twice the shortest");
@@ -550,6 +555,70 @@ void add_atlas(const Site& site, const Tally& tally, nlohmann::json& values) {
   }
 }
 
+/// The texel centres between two borders of a chart, in kTexelUnits of level 0: corners snap to
+/// 1/256 of a texel of the level, and what lies between two of them belongs to the first.
+std::pair<std::int64_t, std::int64_t> texels_between(std::uint64_t begin, std::uint64_t end,
+                                                     int level) {
+  constexpr int kSnapUnits = 256;
+  const auto first_centre_from = [level](std::uint64_t units) {
+    const double texels = static_cast<double>(units) / Site::kTexelUnits;
+    const std::int64_t snapped = std::llrint(std::ldexp(texels * kSnapUnits, -level));
+    return (snapped + kSnapUnits / 2 - 1) / kSnapUnits;
+  };
+  return {first_centre_from(begin), first_centre_from(end)};
+}
+
+/// Where a chart lies, in kTexelUnits of level 0.
+struct UvRect {
+  std::uint64_t left, right, bottom, top;
+};
+
+std::vector<std::vector<UvRect>> charts_by_texture(const Site& site) {
+  std::vector<std::vector<UvRect>> textures(site.options().textures);
+  for (std::size_t row = 0; row < site.rows().charts(); ++row) {
+    for (std::size_t column = 0; column < site.columns().charts(); ++column) {
+      const SiteChart chart = site.chart(column, row);
+      textures[chart.texture].push_back({chart.u, chart.u + chart.width * chart.u_step, chart.v,
+                                         chart.v + chart.height * chart.v_step});
+    }
+  }
+  return textures;
+}
+
+/// Quads are cells between snapped lines, so a chart covers a rectangle once, and no two charts
+/// share a texel.
+std::vector<TexelRect> texels_of(const std::vector<UvRect>& charts, int level) {
+  std::vector<TexelRect> rects;
+  for (const UvRect& chart : charts) {
+    const auto [left, right] = texels_between(chart.left, chart.right, level);
+    const auto [bottom, top] = texels_between(chart.bottom, chart.top, level);
+    rects.push_back({left, right, bottom, top});
+  }
+  return rects;
+}
+
+nlohmann::json level_json(const TexelCounts& counts, std::uint32_t size) {
+  return {{"rw", size},
+          {"rh", size},
+          {"totalTexels", counts.covered},
+          {"totalTexels_bilinear", counts.bilinear},
+          {"overwrittenTexels", 0},
+          {"lostTexels", 0},
+          {"boundaryTexels", counts.boundary},
+          {"texelClashes", counts.clashes}};
+}
+
+void add_textures(const Site& site, nlohmann::json& values) {
+  int texture = 0;
+  for (const std::vector<UvRect>& charts : charts_by_texture(site)) {
+    nlohmann::json& levels = values[fmt::format("texture_{}", texture++)] = nlohmann::json::array();
+    std::uint32_t size = site.options().texture_size_texels;
+    for (int level = 0; size > 0; ++level, size /= 2) {
+      levels.push_back(level_json(count_texels(texels_of(charts, level), size), size));
+    }
+  }
+}
+
 struct WeightedValue {
   double value;
   std::uint64_t weight;
@@ -674,6 +743,7 @@ Answers site_answers(const Site& site) {
   Answers answers;
   add_mesh(site, tally, answers.values);
   add_atlas(site, tally, answers.values);
+  add_textures(site, answers.values);
   add_seams(site, tally, answers.values);
   add_distributions(site, tally, answers.values);
   answers.exact_keys = {"area",     "boundary_len",    "area_uv",           "boundary_len_uv",

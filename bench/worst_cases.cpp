@@ -19,7 +19,7 @@ constexpr std::uint64_t kShortestLongLine = 80'000;
 std::vector<WorstCase> all_cases() {
   std::vector<WorstCase> all;
   for (const auto family : {site_cases, star_cases, strip_cases, collapse_cases, duplicate_cases,
-                            material_cases, long_line_cases, number_cases}) {
+                            material_cases, long_line_cases, number_cases, atlas_cases}) {
     const std::vector<WorstCase> cases = family();
     all.insert(all.end(), cases.begin(), cases.end());
   }

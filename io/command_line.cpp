@@ -2,11 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cstdlib>
 
 #include "io/bytes.hpp"
 #include "io/error.hpp"
+#include "io/table_file.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -25,6 +27,20 @@ ImageSize parse_image_size(const std::string& text) {
   return size;
 }
 
+std::uint32_t parse_tile_texels(const std::string& text) {
+  constexpr std::uint32_t kLeast = 8, kMost = 4096;
+  std::uint32_t texels = 0;
+  const char* end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, texels);
+  const bool whole = parsed.ec == std::errc() && parsed.ptr == end;
+  if (!whole || !std::has_single_bit(texels) || texels < kLeast || texels > kMost) {
+    throw Error(ErrorKind::kUsage, "--tile-size '" + text +
+                                       "' is not the side of a tile; give a power of two from 8 "
+                                       "to 4096");
+  }
+  return texels;
+}
+
 std::string default_tmp_dir() {
   const char* from_environment = std::getenv("TMPDIR");
   return from_environment != nullptr && *from_environment != 0 ? from_environment : "/var/tmp";
@@ -32,14 +48,20 @@ std::string default_tmp_dir() {
 
 /// Texts of the options as given, until they are checked.
 struct Texts {
-  std::string json, size, memory, engine_memory, block_bytes;
-  std::string progress = "auto";
+  std::string json, size, memory, engine_memory, block_bytes, tile_size;
+  std::string progress = "auto", raster = "scalar";
 };
 
 void describe(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("MODEL", options.model, "the model: .obj, .obj.gz or .obj.zst")->required();
   app.add_option("--json", texts.json, "write the report to FILE; - is standard output")
       ->type_name("FILE");
+  app.add_option("--charts", options.charts_path,
+                 "write a table of all charts to FILE: CSV (.csv) or JSON Lines (.jsonl)")
+      ->type_name("FILE");
+  app.add_option("--maps", options.maps_dir,
+                 "write a map of each texture into DIR: OpenEXR with all mip levels, and a picture")
+      ->type_name("DIR");
   app.add_option("-t,--texture-size", texts.size,
                  "texture size for models that name no image, and for images that cannot be read")
       ->type_name("WxH");
@@ -51,6 +73,10 @@ void describe(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("N");
   app.add_option("--tmp-dir", options.tmp_dir, "directory for scratch (default: TMPDIR, /var/tmp)")
       ->type_name("DIR");
+  app.add_option("--raster", texts.raster,
+                 "what draws the triangles: its own raster, or OSMesa as a cross-check")
+      ->check(CLI::IsMember({"scalar", "osmesa"}))
+      ->type_name("scalar|osmesa");
   app.add_option("--progress", texts.progress, "progress on standard error")
       ->check(CLI::IsMember({"auto", "always", "never"}))
       ->type_name("auto|always|never");
@@ -67,6 +93,10 @@ void describe(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("--block-bytes", texts.block_bytes, "for tests: size of a scratch block")
       ->type_name("BYTES")
       ->group("Testing");
+  app.add_option("--tile-size", texts.tile_size,
+                 "for tests: side of a tile of a texture, in texels")
+      ->type_name("N")
+      ->group("Testing");
   app.set_version_flag("--version", std::string("atlasgauge ") + ATLASGAUGE_VERSION);
 }
 
@@ -76,10 +106,14 @@ std::optional<std::uint64_t> optional_bytes(const std::string& text) {
 
 void check(Options& options, const Texts& texts) {
   if (!texts.json.empty()) options.json_path = texts.json;
+  if (options.charts_path) table_format(*options.charts_path);
+  if (options.maps_dir == "") throw Error(ErrorKind::kUsage, "--maps '' is not a folder");
   if (!texts.size.empty()) options.texture_size = parse_image_size(texts.size);
   options.memory_bytes = optional_bytes(texts.memory);
   options.engine_memory_bytes = optional_bytes(texts.engine_memory);
   options.block_bytes = optional_bytes(texts.block_bytes);
+  if (!texts.tile_size.empty()) options.tile_texels = parse_tile_texels(texts.tile_size);
+  options.raster = texts.raster == "osmesa" ? RasterChoice::kOsmesa : RasterChoice::kScalar;
   options.progress = texts.progress == "always"  ? ProgressMode::kAlways
                      : texts.progress == "never" ? ProgressMode::kNever
                                                  : ProgressMode::kAuto;

@@ -12,15 +12,21 @@ namespace atlasgauge {
 
 enum class ProgressMode { kAuto, kAlways, kNever };
 
+enum class RasterChoice { kScalar, kOsmesa };
+
 /// What the user asked for.
 struct Options {
   std::string model;
-  std::optional<std::string> json_path;  ///< "-" is stdout
+  std::optional<std::string> json_path;    ///< "-" is stdout
+  std::optional<std::string> charts_path;  ///< of a known table format
+  std::optional<std::string> maps_dir;
   std::optional<ImageSize> texture_size;
+  RasterChoice raster = RasterChoice::kScalar;
   std::optional<std::uint64_t> memory_bytes;
   std::optional<std::uint64_t> engine_memory_bytes;
   std::optional<std::uint64_t> block_bytes;
-  std::size_t threads = 0;  ///< 0: as many as the process may use
+  std::optional<std::uint32_t> tile_texels;  ///< side of a tile
+  std::size_t threads = 0;                   ///< 0: as many as the process may use
   std::string tmp_dir;
   ProgressMode progress = ProgressMode::kAuto;
   bool quiet = false;

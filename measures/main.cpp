@@ -5,25 +5,35 @@
 
 #include <cstdio>
 #include <exception>
+#include <limits>
+#include <memory>
 #include <new>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/command_line.hpp"
 #include "io/error.hpp"
 #include "io/file/output_file.hpp"
+#include "io/file/output_folder.hpp"
 #include "io/progress_bar.hpp"
 #include "io/texture/image_info.hpp"
 #include "io/texture/texture_slots.hpp"
 #include "io/warnings.hpp"
 #include "measures/base/measure_set.hpp"
+#include "measures/chart_table.hpp"
 #include "measures/estimate_text.hpp"
+#include "measures/mapping.hpp"
 #include "measures/process.hpp"
 #include "measures/summary.hpp"
 #include "stream/engine/engine.hpp"
 #include "stream/estimate.hpp"
 #include "stream/memory_plan.hpp"
 #include "stream/pipeline.hpp"
+#include "stream/raster/osmesa_raster.hpp"
+#include "stream/raster/scalar_raster.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -39,14 +49,29 @@ bool shows_progress(const Options& options) {
 }
 
 MemoryPlan plan_for(const Options& options) {
-  return plan_memory(
-      {options.memory_bytes, options.engine_memory_bytes, options.block_bytes, options.threads},
-      usable_cpus());
+  return plan_memory({options.memory_bytes, options.engine_memory_bytes, options.block_bytes,
+                      options.threads, options.raster == RasterChoice::kOsmesa},
+                     usable_cpus());
 }
 
-/// Writes a JSON text where the user wants it; the text for people then goes beside it.
-void write_results(const Options& options, const Json& json, const std::string& text) {
-  if (options.json_path) write_file(*options.json_path, json.dump(1) + "\n");
+/// OSMesa is loaded here, so that a run does not find out late that it cannot be.
+RasterPlan raster_for(const Options& options) {
+  RasterPlan plan;
+  plan.make = [] { return std::make_unique<ScalarRaster>(); };
+  plan.tile_size = options.tile_texels.value_or(0);
+  if (options.raster == RasterChoice::kScalar) return plan;
+  make_osmesa_raster();
+  plan.make = make_osmesa_raster;
+  plan.largest_tile = kUsualOsmesaTile;
+  return plan;
+}
+
+double distortion_of_any(const Triangle& triangle) {
+  return is_mapped(triangle) ? quasi_conformal_distortion(triangle) : 0;
+}
+
+/// The text for people goes beside a JSON on standard output.
+void write_text(const Options& options, const std::string& text) {
   if (options.quiet) return;
   options.json_path == "-" ? remark(text.c_str()) : write_file("-", text);
 }
@@ -56,12 +81,28 @@ void estimate(const Options& options) {
   const MemoryPlan plan = plan_for(options);
   const ModelGuess guess = guess_model(options.model);
   const CostEstimate cost = estimate_cost(guess, plan);
-  write_results(options, json_of(guess, cost, plan), text_of(guess, cost, plan));
+  if (options.json_path) write_file(*options.json_path, json_of(guess, cost, plan).dump(1) + "\n");
+  write_text(options, text_of(guess, cost, plan));
   require_resources(guess, cost, plan, options.tmp_dir);
+}
+
+/// What the s_f of maps are counted in, as the paper has it: sum A_uv / sum A_3d of all mapped
+/// faces, which is the mean square of the texel density.
+double scaling_unit(const Report& report) {
+  const Json density = report.at("texel_density_rms");
+  if (density.is_null()) return std::numeric_limits<double>::quiet_NaN();
+  return density.get<double>() * density.get<double>();
+}
+
+void write_report(const std::string& path, const Report& report) {
+  OutputFile file(path);
+  report.write([&](std::string_view text) { file.append(text); });
+  file.commit();
 }
 
 void measure(const Options& options) {
   if (options.json_path) check_writable(*options.json_path);
+  if (options.maps_dir) make_output_folder(*options.maps_dir);
   const MemoryPlan plan = plan_for(options);
   require_resources_for(options.model, plan, options.tmp_dir);
   const Workers workers(plan.workers);
@@ -82,12 +123,28 @@ void measure(const Options& options) {
     return resolve_textures(options.model, obj.mtllib_lines, obj.material_names,
                             options.texture_size, read_image_size, warnings);
   };
-  const MeshFacts facts = stream_model(engine, options.model, warnings, resolve, measures);
+  StreamOptions wanted;
+  wanted.raster = raster_for(options);
+  std::optional<ChartTable> charts;
+  if (options.charts_path) {
+    charts.emplace(*options.charts_path);
+    wanted.on_chart = [&](const Chart& chart) { charts->add(chart); };
+  }
+  if (options.maps_dir) wanted.distortion_of = distortion_of_any;
+  MeshFacts facts = stream_model(engine, options.model, wanted, warnings, resolve, measures);
   const Report report = measures.finish(facts);
-
+  if (options.maps_dir && facts.textures.unit_slot) {
+    warnings.add("maps", options.model, 0,
+                 "there is no texture to map, as the model names no image; give a size with -t");
+  } else if (options.maps_dir) {
+    write_maps(engine, std::move(facts.atlas), facts.textures, scaling_unit(report),
+               *options.maps_dir);
+  }
   bar.clear();
-  write_results(options, report.to_json(), summary_of(facts, report));
-  if (options.verbose) remark(cost_of(engine, plan).c_str());
+  if (charts) charts->commit();
+  if (options.json_path) write_report(*options.json_path, report);
+  write_text(options, summary_of(facts, report));
+  if (options.verbose) remark(cost_of(engine, plan, facts.raster).c_str());
 }
 
 int run(const std::vector<std::string>& arguments) {

@@ -33,11 +33,11 @@ std::string text_of(const Json& value) {
 /// One line: what it is, its value, and a word about it.
 class Table {
  public:
-  explicit Table(const Report& report) : json_(report.to_json()) {}
+  explicit Table(const Report& report) : report_(report) {}
 
   void title(std::string_view text) { text_ += fmt::format("\n{}\n", text); }
   void row(std::string_view what, const std::string& key, std::string_view note = "") {
-    line(what, text_of(json_.at(key)), note);
+    line(what, text_of(report_.at(key)), note);
   }
   void line(std::string_view what, std::string_view value, std::string_view note = "") {
     text_ += fmt::format("  {:<28}{:>18}", what, value);
@@ -46,21 +46,21 @@ class Table {
   }
   /// Only when there is something to say.
   void defect(std::string_view what, const std::string& key) {
-    const Json& value = json_.at(key);
+    const Json value = report_.at(key);
     if (value.is_number() && value.get<double>() != 0) row(what, key);
   }
   void spread(std::string_view what, const std::string& prefix, std::string_view note = "") {
     text_ +=
-        fmt::format("  {:<28}{:>18}{:>12}{:>12}{:>12}", what, text_of(json_.at(prefix + "_avg")),
-                    text_of(json_.at(prefix + "_perc1")), text_of(json_.at(prefix + "_perc50")),
-                    text_of(json_.at(prefix + "_perc99")));
+        fmt::format("  {:<28}{:>18}{:>12}{:>12}{:>12}", what, text_of(report_.at(prefix + "_avg")),
+                    text_of(report_.at(prefix + "_perc1")), text_of(report_.at(prefix + "_perc50")),
+                    text_of(report_.at(prefix + "_perc99")));
     if (!note.empty()) text_ += fmt::format("  {}", note);
     text_ += '\n';
   }
   std::string take() { return std::move(text_); }
 
  private:
-  Json json_;
+  const Report& report_;
   std::string text_;
 };
 
@@ -105,6 +105,11 @@ void add_atlas(Table& table) {
   table.row("textures", "ntex");
   table.row("charts", "num_charts");
   table.row("mapped fraction", "mapped_fraction", "of the area");
+  table.row("occupancy", "occupancy", "of the texels of used textures");
+  table.row("overlap within charts", "overlap_within_chart_texels", "texels");
+  table.row("overlap between charts", "overlap_between_charts_texels", "texels");
+  table.row("median chart", "chart_area_perc50", "texels squared");
+  table.row("thin charts", "thin_charts_fraction", "of all charts, under 8 texels wide");
   table.row("UV area", "area_uv", "texels squared");
   table.row("UV boundary length", "boundary_len_uv", "texels");
   table.row("crumbliness", "crumbliness", "1 is best");
@@ -117,6 +122,7 @@ void add_distributions(Table& table) {
   table.title("By area");
   table.line("", "average", "        1 %        50 %        99 %");
   table.spread("quasi-conformal distortion", "qcd", "1 is best");
+  table.spread("UV scaling", "sf", "1 everywhere is best");
   table.spread("texel density", "texel_density", "texels per model unit");
   table.spread("smallest angle", "angle_min", "degrees");
 }
@@ -145,7 +151,7 @@ std::string summary_of(const MeshFacts& facts, const Report& report) {
   return table.take();
 }
 
-std::string cost_of(const Engine& engine, const MemoryPlan& plan) {
+std::string cost_of(const Engine& engine, const MemoryPlan& plan, const RasterWork& raster) {
   std::string text = fmt::format("\n{:<14}{:>9}{:>9}{:>9}{:>13}{:>13}{:>13}\n", "stage", "wall s",
                                  "CPU s", "workers", "spilled", "written", "read");
   for (const StageCost& stage : engine.log.stages()) {
@@ -157,6 +163,9 @@ std::string cost_of(const Engine& engine, const MemoryPlan& plan) {
   const auto line = [&](std::string_view what, std::uint64_t bytes, std::string_view note) {
     text += fmt::format("{:<26}{:>13}  {}\n", what, format_bytes(bytes), note);
   };
+  text +=
+      fmt::format("raster: {} tiles of up to {} texels, triangles drawn: {} scalar, {} osmesa\n",
+                  raster.tiles, raster.tile_size, raster.triangles.scalar, raster.triangles.osmesa);
   line("memory limit", plan.limit_bytes, plan.origin);
   line("engine budget", engine.budget.limit_bytes(), "");
   line("peak resident", peak_resident_bytes(), "");

@@ -7,18 +7,17 @@
 namespace atlasgauge {
 namespace {
 
-/// Texels per model unit, sqrt(A_uv / A_3d), by area, over all mapped faces.
+/// Texels per model unit, sqrt(A_uv / A_3d), by area, over all mapped faces. Its percentiles are
+/// the roots of those of A_uv / A_3d, which `scaling` samples.
 struct TexelDensity {
   static constexpr std::string_view name = "texel_density";
 
   WeightedMoments moments;
 
-  std::optional<Sample> sample(const Triangle& triangle) const {
-    if (!is_mapped(triangle)) return std::nullopt;
-    return Sample{std::sqrt(std::abs(triangle.area_uv) / triangle.area_3d), triangle.area_3d};
+  void accumulate(const Triangle& triangle) {
+    if (!is_mapped(triangle)) return;
+    moments.add(std::sqrt(std::abs(triangle.area_uv) / triangle.area_3d), triangle.area_3d);
   }
-
-  void accumulate(const Sample& taken) { moments.add(taken.value, taken.weight); }
 
   void merge(const TexelDensity& other) { moments.merge(other.moments); }
 
@@ -28,7 +27,9 @@ struct TexelDensity {
   }
 
   void finish(const MeshFacts& facts, Report& report) const {
-    report_percentiles(report, "texel_density", facts.quantiles.at("texel_density").rising);
+    const auto root = [](double value) { return std::sqrt(value); };
+    report_percentiles(report, "texel_density",
+                       mapped(facts.distributions.at("scaling").all.rising, root));
     report_moments(report, "texel_density", moments);
   }
 };

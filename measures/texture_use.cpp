@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "measures/base/measure.hpp"
+#include "measures/texture_levels.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -48,9 +49,9 @@ struct TextureUse {
   void finish(const MeshFacts& facts, Report& report) const {
     Json names = Json::array();
     for (const TextureSlot& slot : facts.textures.slots) {
-      report.set("texture_" + std::to_string(names.size()), Json::array());
       names.push_back(slot.name);
     }
+    report.set_textures(facts.textures.slots.size(), texture_levels(facts));
     report.set("ntex", std::uint64_t{facts.textures.slots.size()});
     report.set("textures", std::move(names));
     report.set("faces_unmapped", unmapped);

@@ -46,7 +46,7 @@ struct TriangleShape {
   }
 
   void finish(const MeshFacts& facts, Report& report) const {
-    report_percentiles(report, "angle_min", facts.quantiles.at("angle_min").rising);
+    report_percentiles(report, "angle_min", facts.distributions.at("angle_min").all.rising);
     report_moments(report, "angle_min", moments);
   }
 };

@@ -22,6 +22,8 @@
 #include "stream/mesh/face_stream.hpp"
 #include "stream/mesh/mesh_store.hpp"
 #include "stream/mesh/records.hpp"
+#include "stream/raster/bin_triangle.hpp"
+#include "stream/raster/tile_size.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -37,6 +39,9 @@ constexpr double kTouched = 0.8;
 
 /// Blocks that stages have begun, and fill or not.
 constexpr std::uint64_t kOpenBlocks = 8;
+
+/// Textures are taken for large: their sizes would cost the image library.
+constexpr std::int64_t kTextureSide = 4096;
 
 /// Estimates may be wrong by this factor; only what is beyond it is refused.
 constexpr double kTolerance = 1.5;
@@ -114,16 +119,16 @@ struct StageNeed {
 };
 
 /// The stages that need most; the records are those of the stages' own files.
-std::vector<StageNeed> stage_needs(const ModelGuess& guess) {
+std::vector<StageNeed> stage_needs(const ModelGuess& guess, double tiles_bytes) {
   const double v = guess.positions;
   const double t = guess.texcoords;
   const double f = guess.faces;
   const double tables = v * sizeof(Position) + t * sizeof(TexCoord);
   const double model = tables + f * sizeof(FaceRecord);
   const double half_edges = 3 * f * sizeof(HalfEdge);
-  // The smallest angle, and where there are UVs distortion, conformality and density.
-  const double samples = f * sizeof(Sample) * (t > 0 ? 4 : 1);
-  const double kept = f * (sizeof(FaceRecord) + sizeof(FaceFacts)) + samples;
+  // The smallest angle, and where there are UVs distortion and scaling.
+  const double samples = f * sizeof(Sample) * (t > 0 ? 3 : 1);
+  const double kept = f * (sizeof(FaceRecord) + sizeof(FaceFacts) + sizeof(AtlasFace)) + samples;
   const double placed = v * (sizeof(Position) + sizeof(VertexId) + 4);
   return {
       {model + placed, 3 * placed},                    // weld: table at most half full
@@ -131,7 +136,17 @@ std::vector<StageNeed> stage_needs(const ModelGuess& guess) {
       {kept + half_edges, 2 * half_edges},             // edges: loaded and sorted
       {kept + 3 * f * sizeof(Link) + 36 * f, 72 * f},  // stars: three corners a face
       {tables + f * 8, v * 8},                         // labels of vertices
+      {samples + 3 * f * sizeof(BinTriangle),
+       tiles_bytes + 2 * f * sizeof(BinTriangle)},  // raster, of two levels
   };
+}
+
+/// Tiles of texels, which are drawn when the half-edges are gone.
+double tile_bytes(const ModelGuess& guess, const MemoryPlan& plan) {
+  if (guess.texcoords == 0) return 0;
+  const std::int64_t size =
+      choose_tile_size(plan.engine_bytes - plan.resident_bytes, plan.workers, kTextureSide);
+  return kTouched * static_cast<double>(plan.workers * pyramid_bytes(size));
 }
 
 /// Measured on a million faces and more, in nanoseconds: a byte of text, a vertex, a face, and a
@@ -205,7 +220,7 @@ CostEstimate estimate_cost(const ModelGuess& guess, const MemoryPlan& plan) {
   double scratch = 0;
   double resident = 0;
   const auto open_blocks_bytes = static_cast<double>(kOpenBlocks * plan.block_bytes);
-  for (const StageNeed& need : stage_needs(guess)) {
+  for (const StageNeed& need : stage_needs(guess, tile_bytes(guess, plan))) {
     scratch = std::max(scratch, need.scratch_bytes);
     resident = std::max(
         resident, std::min(need.scratch_bytes, pool) + std::min(need.working_bytes, working_most));

@@ -47,13 +47,50 @@ struct Component {
   bool orientable;
 };
 
-/// A connected component of faces over uv edges.
+/// A connected component of faces over uv edges. All its faces have one slot.
 struct Chart {
   FaceId first_face;  ///< the number of the chart
   std::uint64_t faces;
   bool null;        ///< every face has UV area 0
   bool orientable;  ///< its faces can be flipped to run coherently
   std::uint64_t folds;
+  SlotId slot = kNone<SlotId>;
+  double area_3d = 0;            ///< model units squared
+  double area_uv = 0;            ///< sum of the absolute areas of its faces, texels squared
+  double perimeter = 0;          ///< of its uv boundary edges, texels; only where it was asked for
+  UvBox uv_box{};                ///< of its faces with a UV triangle, UVs as in the file
+  double width = 0, height = 0;  ///< of that box, in texels
+};
+
+/// What covers the texels of one mip level of a slot, or of a part of it (SPEC section 4).
+struct TexelCounts {
+  std::uint64_t covered = 0;           ///< texels with n > 0
+  std::uint64_t drawn = 0;             ///< sum of n
+  std::uint64_t bilinear = 0;          ///< with n > 0, or with such a texel among their neighbours
+  std::uint64_t overwritten = 0;       ///< with n > 1
+  std::uint64_t lost = 0;              ///< sum of n - 1 over those
+  std::uint64_t boundary = 0;          ///< covered, with an uncovered neighbour or on the rim
+  std::uint64_t clashes = 0;           ///< covered, with a neighbour that another chart covers
+  std::uint64_t overlaps_between = 0;  ///< covered by two charts or more
+
+  void merge(const TexelCounts& other) {
+    covered += other.covered;
+    drawn += other.drawn;
+    bilinear += other.bilinear;
+    overwritten += other.overwritten;
+    lost += other.lost;
+    boundary += other.boundary;
+    clashes += other.clashes;
+    overlaps_between += other.overlaps_between;
+  }
+};
+
+/// One mip level of a slot, rastered.
+struct TextureLevel {
+  SlotId slot;
+  std::uint32_t level;
+  std::uint64_t width, height;  ///< texels
+  TexelCounts counts;
 };
 
 /// A value with its weight, of which the exact weighted percentiles are taken.
@@ -73,9 +110,14 @@ class GroupSink {
   virtual void accept(std::span<const VertexStar> stars) = 0;
   virtual void accept(std::span<const Component> components) = 0;
   virtual void accept(std::span<const Chart> charts) = 0;
-  /// Appends the samples that a distribution takes of these triangles.
+  virtual void accept(std::span<const TextureLevel> levels) = 0;
+  /// Appends the samples that a distribution takes of these groups.
   virtual void sample(std::size_t distribution, std::span<const Triangle> triangles,
                       std::vector<Sample>& samples) = 0;
+  virtual void sample(std::size_t distribution, std::span<const Chart> charts,
+                      std::vector<Sample>& samples) = 0;
+  /// A sample beyond the cutoff of its distribution.
+  virtual void cut(std::size_t distribution, const Sample& sample) = 0;
 };
 
 /// One sink a worker, and the names of the distributions they sample.
@@ -84,6 +126,9 @@ class GroupSinks {
   virtual ~GroupSinks() = default;
   virtual GroupSink& of_worker(std::size_t worker) = 0;
   virtual std::vector<std::string> distributions() const = 0;
+  /// The largest value that a distribution keeps, once all other groups are handed out; infinity
+  /// where it keeps all.
+  virtual double cutoff(std::size_t distribution) const = 0;
 };
 
 /// Collects groups and hands them over a few hundred at a time.

@@ -7,12 +7,14 @@
 #include "io/error.hpp"
 #include "io/memory_limit.hpp"
 #include "stream/engine/scratch.hpp"
+#include "stream/raster/osmesa_raster.hpp"
 
 namespace atlasgauge {
 namespace {
 
 constexpr std::uint64_t kMiB = 1 << 20;
 constexpr std::uint64_t kFloorBytes = 256 * kMiB;
+constexpr std::uint64_t kOsmesaFloorBytes = 448 * kMiB;
 /// Resident once the image library is loaded, as measured, and the program itself.
 constexpr std::uint64_t kProcessBytes = 152 * kMiB;
 /// Stacks, allocator slack and small objects of a worker.
@@ -28,14 +30,24 @@ constexpr std::uint64_t kBlocksPerEngine = 512;
 /// The least share of a thread when their number is not given.
 constexpr std::uint64_t kEngineBytesPerThread = 8 * kMiB;
 
-std::uint64_t engine_share(const MemoryPlan& plan) {
+/// What is no concern of the engine.
+struct OtherNeeds {
+  explicit OtherNeeds(bool osmesa)
+      : floor_bytes(osmesa ? kOsmesaFloorBytes : kFloorBytes),
+        process_bytes(kProcessBytes + (osmesa ? kOsmesaLoadedBytes : 0)),
+        worker_bytes(kWorkerBytes +
+                     (osmesa ? osmesa_raster_bytes(kUsualOsmesaTile, kUsualOsmesaTile) : 0)) {}
+  std::uint64_t floor_bytes, process_bytes, worker_bytes;
+};
+
+std::uint64_t engine_share(const MemoryPlan& plan, const OtherNeeds& other) {
   const std::string limit =
       "a memory limit of " + format_bytes(plan.limit_bytes) + " (" + plan.origin + ")";
-  if (plan.limit_bytes < kFloorBytes) {
+  if (plan.limit_bytes < other.floor_bytes) {
     throw Error(ErrorKind::kResource, limit + " is too little; give at least " +
-                                          format_bytes(kFloorBytes) + " with --memory");
+                                          format_bytes(other.floor_bytes) + " with --memory");
   }
-  const std::uint64_t process_bytes = kProcessBytes + plan.workers * kWorkerBytes;
+  const std::uint64_t process_bytes = other.process_bytes + plan.workers * other.worker_bytes;
   if (process_bytes + kSmallestEngineBytes > plan.limit_bytes) {
     throw Error(ErrorKind::kResource, limit + " is too little for " + std::to_string(plan.workers) +
                                           " threads; give fewer with --threads, or at least " +
@@ -46,10 +58,10 @@ std::uint64_t engine_share(const MemoryPlan& plan) {
 }
 
 std::size_t choose_threads(const MemoryWishes& wishes, std::uint64_t limit_bytes,
-                           std::size_t cpus) {
+                           const OtherNeeds& other, std::size_t cpus) {
   if (wishes.threads > 0) return wishes.threads;
-  const std::uint64_t rest_bytes = limit_bytes - std::min(limit_bytes, kProcessBytes);
-  const std::uint64_t affordable = rest_bytes / (kEngineBytesPerThread + kWorkerBytes);
+  const std::uint64_t rest_bytes = limit_bytes - std::min(limit_bytes, other.process_bytes);
+  const std::uint64_t affordable = rest_bytes / (kEngineBytesPerThread + other.worker_bytes);
   return std::clamp<std::size_t>(affordable, 1, std::max<std::size_t>(1, cpus));
 }
 
@@ -65,8 +77,9 @@ MemoryPlan plan_memory(const MemoryWishes& wishes, std::size_t cpus) {
     plan.limit_bytes = limit.bytes / 10 * 8;
     plan.origin = "0.8 of " + limit.origin;
   }
-  plan.workers = choose_threads(wishes, plan.limit_bytes, cpus);
-  plan.engine_bytes = wishes.engine_bytes ? *wishes.engine_bytes : engine_share(plan);
+  const OtherNeeds other(wishes.osmesa);
+  plan.workers = choose_threads(wishes, plan.limit_bytes, other, cpus);
+  plan.engine_bytes = wishes.engine_bytes ? *wishes.engine_bytes : engine_share(plan, other);
   if (plan.engine_bytes < kSmallestEngineBytes) {
     throw Error(ErrorKind::kResource, "--engine-memory is too little; give at least " +
                                           format_bytes(kSmallestEngineBytes));

@@ -22,13 +22,14 @@ struct MemoryWishes {
   std::optional<std::uint64_t> engine_bytes;  ///< --engine-memory
   std::optional<std::uint64_t> block_bytes;   ///< --block-bytes
   std::size_t threads = 0;                    ///< --threads; 0: one a CPU, as far as memory goes
+  bool osmesa = false;                        ///< --raster osmesa
 };
 
 /// Takes from the limit what the process itself needs (program, thread stacks, and the image
 /// library, which is loaded only when a model names an image, but then costs the same whatever the
 /// model), and gives the rest to the engine, as far as more memory makes it faster. On a machine of
 /// many CPUs and little memory there are fewer threads than CPUs, unless they are asked for. Throws
-/// Error(kResource) for a limit below the floor of 256 MiB.
+/// Error(kResource) for a limit below the floor of 256 MiB, or 448 MiB with OSMesa.
 MemoryPlan plan_memory(const MemoryWishes& wishes, std::size_t cpus);
 
 }  // namespace atlasgauge

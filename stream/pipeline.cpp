@@ -1,7 +1,6 @@
 #include "stream/pipeline.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "stream/mesh/stars.hpp"
 #include "stream/mesh/triangles.hpp"
 #include "stream/mesh/weld.hpp"
+#include "stream/raster/atlas_raster.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -23,15 +23,17 @@ struct TriangleOutput {
   std::vector<SampleStore::Writer> samples;
   std::vector<Sample> taken;
   std::vector<FaceFacts> facts;
-  double largest_area_uv = 0;
+  std::vector<AtlasFace> faces;
+  std::vector<float> distortions;
 };
 
 /// What the pass over all triangles leaves behind.
 struct TriangleResults {
   std::unique_ptr<EdgeTable> edges;
-  Spill<FaceFacts> facts;  ///< in face order
+  Spill<FaceFacts> facts;    ///< in face order
+  Spill<AtlasFace> faces;    ///< in face order
+  Spill<float> distortions;  ///< in face order; empty unless asked for
   std::vector<std::unique_ptr<SampleStore>> samples;
-  double largest_area_uv = 0;
 };
 
 void take_samples(GroupSink& sink, std::span<const Triangle> triangles, TriangleOutput& output) {
@@ -42,23 +44,29 @@ void take_samples(GroupSink& sink, std::span<const Triangle> triangles, Triangle
   }
 }
 
-void note_facts(std::span<const Triangle> triangles, TriangleOutput& output) {
+void note_facts(std::span<const Triangle> triangles, const StreamOptions& options,
+                TriangleOutput& output) {
   output.facts.clear();
+  output.faces.clear();
+  output.distortions.clear();
   for (const Triangle& triangle : triangles) {
     output.facts.emplace_back(triangle);
-    output.largest_area_uv = std::max(output.largest_area_uv, std::abs(triangle.area_uv));
+    output.faces.emplace_back(triangle);
+    if (options.distortion_of) {
+      output.distortions.push_back(static_cast<float>(options.distortion_of(triangle)));
+    }
   }
 }
 
-TriangleResults stream_triangles(const Engine& engine, MeshStore& mesh, Weld& weld,
-                                 const TextureSlots& slots, const SlotFrames& frames,
-                                 GroupSinks& sinks) {
+TriangleResults stream_triangles(const Engine& engine, const StreamOptions& options,
+                                 MeshStore& mesh, Weld& weld, const TextureSlots& slots,
+                                 const SlotFrames& frames, GroupSinks& sinks) {
   StageLog::Stage stage(engine.log, "triangles", mesh.faces.size());
   const std::size_t workers = engine.workers.count();
   const std::size_t distributions = sinks.distributions().size();
   const Reservation writers_memory = engine.budget.reserve(
       distributions * Partition<Sample>::memory_bytes(1, workers, engine.block_bytes()) +
-          6 * engine.block_bytes(),
+          8 * engine.block_bytes(),
       "samples and face facts");
   TriangleResults results;
   results.edges = EdgeTable::make(engine, weld.found_any(), mesh.faces.size(),
@@ -71,22 +79,29 @@ TriangleResults stream_triangles(const Engine& engine, MeshStore& mesh, Weld& we
     for (auto& store : results.samples) output.samples.emplace_back(*store);
   }
   SpillWriter<FaceFacts> facts(engine.scratch);
+  SpillWriter<AtlasFace> faces(engine.scratch);
+  SpillWriter<float> distortions(engine.scratch);
   TriangleVisitor visitor;
   visitor.transform = [&](std::size_t worker, std::span<const Triangle> triangles) {
     GroupSink& sink = sinks.of_worker(worker);
     sink.accept(triangles);
     take_samples(sink, triangles, outputs[worker]);
-    note_facts(triangles, outputs[worker]);
+    note_facts(triangles, options, outputs[worker]);
     results.edges->add(worker, triangles, frames);
   };
-  visitor.commit = [&](std::size_t worker) { facts.append(outputs[worker].facts); };
+  visitor.commit = [&](std::size_t worker) {
+    facts.append(outputs[worker].facts);
+    faces.append(outputs[worker].faces);
+    distortions.append(outputs[worker].distortions);
+  };
   visit_triangles(engine, mesh, weld, slots, frames, engine.budget.free_bytes() / 8 * 7, stage,
                   visitor);
   for (TriangleOutput& output : outputs) {
     for (auto& writer : output.samples) writer.flush();
-    results.largest_area_uv = std::max(results.largest_area_uv, output.largest_area_uv);
   }
   results.facts = facts.finish();
+  results.faces = faces.finish();
+  results.distortions = distortions.finish();
   return results;
 }
 
@@ -104,23 +119,39 @@ std::uint64_t stream_boundary(const Engine& engine, EdgeResults& edges, std::uin
                                    boundary_vertices);
 }
 
-Spill<FaceId> stream_charts(const Engine& engine, EdgeResults& edges, Spill<FaceFacts>& facts,
-                            double largest_area_uv, GroupSinks& sinks) {
-  StageLog::Stage stage(engine.log, "charts", facts.size());
-  FaceLabels labels(engine, std::move(edges.uv_links), facts.size(), edges.uv_manifold);
-  return group_charts(engine, labels, facts, largest_area_uv, sinks);
+/// What the charts leave behind.
+struct ChartStage {
+  Spill<Label> of_faces;  ///< the charts, in face order
+  Spill<FaceId> null_faces;
+};
+
+ChartStage stream_charts(const Engine& engine, const StreamOptions& options, EdgeResults& edges,
+                         TriangleResults& triangles, const SlotFrames& frames, GroupSinks& sinks) {
+  StageLog::Stage stage(engine.log, "charts", triangles.facts.size());
+  FaceLabels labels(engine, std::move(edges.uv_links), triangles.facts.size(), edges.uv_manifold);
+  ChartParts parts{labels, triangles.facts, triangles.faces, std::move(edges.borders)};
+  const bool keep = static_cast<bool>(options.on_chart);
+  ChartResults results =
+      group_charts(engine, std::move(parts), frames, keep, sinks, triangles.samples);
+  SpillReader<Chart> charts(results.charts, SpillReader<Chart>::Mode::kConsume);
+  for (Chart chart; charts.read(chart);) options.on_chart(chart);
+  return {std::move(labels.by_all_edges()), std::move(results.null_faces)};
 }
 
-std::map<std::string, Quantiles> select_quantiles(
-    const Engine& engine, const std::vector<std::string>& names,
-    std::vector<std::unique_ptr<SampleStore>> stores) {
+std::map<std::string, Distribution> select_quantiles(
+    const Engine& engine, GroupSinks& sinks, std::vector<std::unique_ptr<SampleStore>> stores) {
+  const std::vector<std::string> names = sinks.distributions();
   StageLog::Stage stage(engine.log, "percentiles", names.size());
-  std::map<std::string, Quantiles> quantiles;
+  std::map<std::string, Distribution> distributions;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    quantiles.emplace(names[i], stores[i]->select(engine));
+    const auto on_cut = [&](std::size_t worker, const Sample& sample) {
+      sinks.of_worker(worker).cut(i, sample);
+    };
+    distributions.emplace(names[i],
+                          select_up_to(engine, stores[i]->finish(), sinks.cutoff(i), on_cut));
     stage.progress(i + 1);
   }
-  return quantiles;
+  return distributions;
 }
 
 std::uint64_t memory_bytes(const TextureSlots& textures) {
@@ -129,8 +160,9 @@ std::uint64_t memory_bytes(const TextureSlots& textures) {
 
 }  // namespace
 
-MeshFacts stream_model(const Engine& engine, const std::string& path, Warnings& warnings,
-                       const ResolveTextures& resolve_textures, GroupSinks& sinks) {
+MeshFacts stream_model(const Engine& engine, const std::string& path, const StreamOptions& options,
+                       Warnings& warnings, const ResolveTextures& resolve_textures,
+                       GroupSinks& sinks) {
   ObjSummary summary;
   MeshStore mesh = read_mesh(engine, path, warnings, summary);
   MeshFacts facts;
@@ -147,12 +179,15 @@ MeshFacts stream_model(const Engine& engine, const std::string& path, Warnings& 
   Weld weld = weld_vertices(engine, mesh);
   facts.duplicate_positions = weld.duplicates;
   const SlotFrames frames = frame_slots(engine, mesh, weld, facts.textures);
-  TriangleResults triangles = stream_triangles(engine, mesh, weld, facts.textures, frames, sinks);
+  TriangleResults triangles =
+      stream_triangles(engine, options, mesh, weld, facts.textures, frames, sinks);
   mesh.positions.clear();
   mesh.texcoords.clear();
   weld.welded.clear();
 
-  EdgeResults edges = triangles.edges->group(frames, sinks);
+  const bool wants_maps = static_cast<bool>(options.distortion_of);
+  const bool keep_borders = static_cast<bool>(options.on_chart);
+  EdgeResults edges = triangles.edges->group(frames, keep_borders, sinks);
   triangles.edges.reset();
   const std::uint64_t boundary_vertices =
       group_stars(engine, mesh.faces, triangles.facts, facts.positions, sinks);
@@ -160,11 +195,24 @@ MeshFacts stream_model(const Engine& engine, const std::string& path, Warnings& 
 
   stream_components(engine, edges, triangles.facts, sinks);
   facts.boundary_components = stream_boundary(engine, edges, facts.positions, boundary_vertices);
-  Spill<FaceId> null_faces =
-      stream_charts(engine, edges, triangles.facts, triangles.largest_area_uv, sinks);
+  ChartStage charts = stream_charts(engine, options, edges, triangles, frames, sinks);
   triangles.facts.clear();
-  group_seams(engine, std::move(edges.seams), std::move(null_faces), facts.faces, sinks);
-  facts.quantiles = select_quantiles(engine, sinks.distributions(), std::move(triangles.samples));
+  if (!facts.textures.unit_slot) {
+    RasterPlan plan = options.raster;
+    plan.keep_faces = wants_maps;
+    RasterResults raster =
+        raster_atlas(engine, charts.of_faces, triangles.faces, frames, plan, sinks);
+    facts.texture_levels = std::move(raster.levels);
+    facts.raster = raster.work;
+  }
+  if (wants_maps) {
+    facts.atlas = {std::move(charts.of_faces), std::move(triangles.faces),
+                   std::move(triangles.distortions), frames};
+  }
+  charts.of_faces.clear();
+  triangles.faces.clear();
+  group_seams(engine, std::move(edges.seams), std::move(charts.null_faces), facts.faces, sinks);
+  facts.distributions = select_quantiles(engine, sinks, std::move(triangles.samples));
   return facts;
 }
 

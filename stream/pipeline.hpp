@@ -12,6 +12,8 @@
 #include "stream/engine/quantiles.hpp"
 #include "stream/groups.hpp"
 #include "stream/mesh/mesh_store.hpp"
+#include "stream/raster/atlas_maps.hpp"
+#include "stream/raster/atlas_raster.hpp"
 
 namespace atlasgauge {
 
@@ -25,21 +27,35 @@ struct MeshFacts {
   std::uint64_t boundary_components = 0;
   BoundingBox box;
   TextureSlots textures;
-  std::map<std::string, Quantiles> quantiles;  ///< by distribution
+  std::map<std::string, Distribution> distributions;  ///< by name
+  /// By slot and level, for all slots with a size; empty under the 1x1 slot.
+  Spill<TextureLevel> texture_levels;
+  RasterWork raster;
+  AtlasStore atlas;  ///< empty unless distortions were asked for
 };
 
 /// Finds the slots of a model from what its OBJ says.
 using ResolveTextures = std::function<TextureSlots(const ObjSummary&)>;
 
+/// What is wanted besides the report.
+struct StreamOptions {
+  RasterPlan raster;
+  std::function<void(const Chart&)> on_chart;  ///< all charts, by number; may be empty
+  /// For maps: the quasi-conformal distortion of a face, 0 where it has none. If not empty, the
+  /// facts keep what maps are drawn from.
+  std::function<double(const Triangle&)> distortion_of;
+};
+
 /// The flow of DESIGN section 3: streams a model through all stages, each of which hands its groups
 /// to the sinks.
 ///
 ///   read -> weld -> UV shift -> triangles -> edges -> vertex stars
-///        -> labels: components, boundary, charts -> seams -> percentiles
+///        -> labels: components, boundary, charts -> raster (needs chart numbers) -> seams
+///        -> percentiles (the cutoff of s_f needs the occupancy)
 ///
-/// Not there yet, and where they belong: tile bins and raster after charts (they need chart
-/// numbers), then s_f, whose cut-off needs occupancy; texel sampling after seams.
-MeshFacts stream_model(const Engine& engine, const std::string& path, Warnings& warnings,
-                       const ResolveTextures& resolve_textures, GroupSinks& sinks);
+/// Not there yet, and where it belongs: texel sampling after seams.
+MeshFacts stream_model(const Engine& engine, const std::string& path, const StreamOptions& options,
+                       Warnings& warnings, const ResolveTextures& resolve_textures,
+                       GroupSinks& sinks);
 
 }  // namespace atlasgauge

@@ -13,6 +13,7 @@ std::vector<WorstCase> duplicate_cases();  ///< faces that come twice
 std::vector<WorstCase> material_cases();   ///< many materials
 std::vector<WorstCase> long_line_cases();  ///< one line as long as the file
 std::vector<WorstCase> number_cases();     ///< numbers beyond any type
+std::vector<WorstCase> atlas_cases();      ///< UVs that are hard to raster
 std::vector<WorstCase> site_cases();       ///< scans in random order
 
 }  // namespace atlasgauge

@@ -2,12 +2,13 @@
 #include <numbers>
 
 #include "bench/worst/families.hpp"
+#include "bench/worst/levels.hpp"
 #include "bench/worst/strip.hpp"
 
 namespace atlasgauge {
 namespace {
 
-constexpr double kSide = 16;  // texels of an image
+constexpr std::uint64_t kSide = 16;  // texels of an image
 constexpr std::uint64_t kFacesOfMaterial = 20;
 
 std::uint64_t materials_of(std::uint64_t size) {
@@ -19,10 +20,9 @@ std::string image_name(std::uint64_t material, bool shared) {
 }
 
 void write_image(const std::filesystem::path& path) {
-  const auto side = static_cast<std::uint64_t>(kSide);
   TextFile image(path.string());
   image.put("P3\n16 16\n255\n");
-  for (std::uint64_t i = 0; i < side * side; ++i) image.put("10 20 30\n");
+  for (std::uint64_t i = 0; i < kSide * kSide; ++i) image.put("10 20 30\n");
   image.close();
 }
 
@@ -67,6 +67,18 @@ Shape textured_shape(std::uint64_t size) {
   return shape;
 }
 
+/// A strip is shifted so that it begins with its slanting side on the texture.
+void answer_texels(std::uint64_t textures, Answers& answers) {
+  for (std::uint64_t i = 0; i < textures; ++i) {
+    answer_levels(
+        i, kSide, 1, [](auto side, unsigned) { return half_cover(side); }, answers);
+  }
+  const auto covered = static_cast<double>(half_cover(kSide).covered);
+  answers.values["occupancy"] = covered / (kSide * kSide);
+  answers.values["overlap_within_chart_texels"] = 0;
+  answers.values["overlap_between_charts_texels"] = 0;
+}
+
 /// A strip is a chart for every material. Each is shifted by a whole number of textures, which
 /// changes no length.
 Answers own_images_answers(std::uint64_t size) {
@@ -84,12 +96,14 @@ Answers own_images_answers(std::uint64_t size) {
   for (std::uint64_t i = 0; i < materials; ++i) names.push_back(image_name(i, false));
   answers.values["ntex"] = materials;
   answers.values["textures"] = std::move(names);
+  answer_texels(materials, answers);
   return answers;
 }
 
 Answers same_image_answers(std::uint64_t size) {
   Answers answers = answers_of(textured_shape(size));
   answers.values["textures"] = {image_name(0, true)};
+  answer_texels(1, answers);
   return answers;
 }
 

@@ -1,7 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "io/file/descriptor.hpp"
+#include "io/file/unnamed_file.hpp"
 
 namespace atlasgauge {
 
@@ -9,11 +14,32 @@ namespace atlasgauge {
 /// its end. "-" always can.
 void check_writable(const std::string& path);
 
-/// Writes a whole file or none: into a file without a name in the same folder, flushed to disk,
-/// then renamed over `path`, so an older file stays until the new one is complete; the new one has
-/// its owner and permissions. A symbolic link stays, and the file it names is replaced. "-" is
-/// standard output; anything that is not a regular file (a pipe, a device) is written directly.
-/// To be called while the program has no other threads. Throws Error(kResource).
+/// A file written from its start to its end, of any length, that is there whole or not at all: see
+/// UnnamedFile. "-" is standard output; it and anything that is not a regular file (a pipe, a
+/// device) is written directly.
+/// To be opened and committed while the program has no other threads. Throws Error(kResource).
+class OutputFile {
+ public:
+  static constexpr std::size_t kBufferBytes = 64 << 10;
+
+  explicit OutputFile(const std::string& path);
+
+  void append(std::string_view text);
+
+  /// Without it, nothing is left. Nothing may be appended after that.
+  void commit();
+
+ private:
+  void write(std::string_view text);
+  void flush();
+
+  std::string target_;
+  std::optional<UnnamedFile> file_;
+  Descriptor special_;  ///< what is written to if there is no file_
+  std::string buffer_;
+};
+
+/// Writes a whole file or none, as OutputFile does.
 void write_file(const std::string& path, std::string_view text);
 
 }  // namespace atlasgauge

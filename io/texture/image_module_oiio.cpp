@@ -1,22 +1,13 @@
 #include <OpenImageIO/imageio.h>
 
-#include <algorithm>
-#include <cstring>
-#include <exception>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <new>
 #include <string>
 
-#include "io/texture/image_module.hpp"
+#include "io/texture/image_module_guard.hpp"
 
 namespace {
-
-void put_error(const std::string& text, char* error, std::size_t error_bytes) {
-  if (error_bytes == 0) return;
-  const std::size_t bytes = std::min(text.size(), error_bytes - 1);
-  std::memcpy(error, text.data(), bytes);
-  error[bytes] = '\0';
-}
 
 std::string library_error() {
   const std::string text = OIIO::geterror();
@@ -39,14 +30,6 @@ std::string read_size(const char* path, std::uint32_t& width, std::uint32_t& hei
 extern "C" __attribute__((visibility("default"))) bool atlasgauge_image_size(
     const char* path, std::uint32_t* width, std::uint32_t* height, char* error,
     std::size_t error_bytes) {
-  try {
-    const std::string fault = read_size(path, *width, *height);
-    if (fault.empty()) return true;
-    put_error(fault, error, error_bytes);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& e) {
-    put_error(e.what(), error, error_bytes);
-  }
-  return false;
+  return atlasgauge::tell_fault([&] { return read_size(path, *width, *height); }, error,
+                                error_bytes);
 }

@@ -73,6 +73,15 @@ void ExactSum::merge(const ExactSum& other) {
   propagate();
 }
 
+void ExactSum::subtract(const ExactSum& other) {
+  ExactSum subtrahend = other;
+  subtrahend.propagate();
+  propagate();
+  for (std::size_t i = 0; i < kChunks; ++i) chunks_[i] -= subtrahend.chunks_[i];
+  not_finite_ -= subtrahend.not_finite_;
+  propagate();
+}
+
 /// Leaves every chunk but the last in [0, 2^32), so equal sums have equal chunks.
 void ExactSum::propagate() {
   for (std::size_t i = 0; i + 1 < kChunks; ++i) {

@@ -21,6 +21,7 @@ class ExactSum {
   /// Adds a * b * c, to twice the precision of a double.
   void add_product(double a, double b, double c);
   void merge(const ExactSum& other);
+  void subtract(const ExactSum& other);
 
   /// Nearest double; NaN if a term was not finite.
   double value() const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -31,19 +32,31 @@ namespace atlasgauge {
 // changes nothing, any cut into partials merged in any order gives the same report, and a partial
 // saved and loaded is the same.
 //
-// A measure with `std::optional<Sample> sample(const Triangle&)` is a distribution: each sample is
-// handed to its accumulate(const Sample&), and finish() finds the exact percentiles of all of them
-// in facts.quantiles under its name.
+// A measure with `std::optional<Sample> sample(const Triangle&)`, or of a Chart, is a distribution:
+// each sample is handed to its accumulate(const Sample&), and finish() finds the exact percentiles
+// of all of them in facts.distributions under its name. With `double cutoff() const` it has those
+// of the samples up to there, too; cutoff() is asked of the merged partials once all groups are
+// handed out, and then cut(const Sample&) is told of every sample beyond, if the measure has one.
 
 template <class M, class Group>
 concept Accumulates = requires(M measure, const Group& group) {
   measure.accumulate(group);
 };
 
-template <class M>
-concept Sampled = requires(M measure, const Triangle& triangle, const Sample& sample) {
-  { measure.sample(triangle) } -> std::same_as<std::optional<Sample>>;
+template <class M, class Group>
+concept Samples = requires(M measure, const Group& group, const Sample& sample) {
+  { measure.sample(group) } -> std::same_as<std::optional<Sample>>;
   measure.accumulate(sample);
+};
+
+template <class M>
+concept HasCutoff = requires(const M measure) {
+  { measure.cutoff() } -> std::same_as<double>;
+};
+
+template <class M>
+concept HearsOfCuts = requires(M measure, const Sample& sample) {
+  measure.cut(sample);
 };
 
 /// A measure without its type: one virtual call a batch.
@@ -51,6 +64,7 @@ class AnyMeasure : public GroupSink {
  public:
   virtual std::string_view name() const = 0;
   virtual bool sampled() const = 0;
+  virtual double cutoff() const = 0;
   virtual std::unique_ptr<AnyMeasure> fresh() const = 0;
   virtual void merge(const AnyMeasure& other) = 0;
   virtual void save(Saver& saver) = 0;
@@ -62,7 +76,11 @@ template <class M>
 class MeasureOf final : public AnyMeasure {
  public:
   std::string_view name() const override { return M::name; }
-  bool sampled() const override { return Sampled<M>; }
+  bool sampled() const override { return Samples<M, Triangle> || Samples<M, Chart>; }
+  double cutoff() const override {
+    if constexpr (HasCutoff<M>) return measure_.cutoff();
+    return std::numeric_limits<double>::infinity();
+  }
   std::unique_ptr<AnyMeasure> fresh() const override { return std::make_unique<MeasureOf>(); }
   void merge(const AnyMeasure& other) override {
     measure_.merge(dynamic_cast<const MeasureOf&>(other).measure_);
@@ -80,16 +98,16 @@ class MeasureOf final : public AnyMeasure {
   void accept(std::span<const VertexStar> groups) override { accumulate(groups); }
   void accept(std::span<const Component> groups) override { accumulate(groups); }
   void accept(std::span<const Chart> groups) override { accumulate(groups); }
-  void sample(std::size_t, std::span<const Triangle> triangles,
+  void accept(std::span<const TextureLevel> groups) override { accumulate(groups); }
+  void sample(std::size_t, std::span<const Triangle> groups,
               std::vector<Sample>& samples) override {
-    if constexpr (Sampled<M>) {
-      for (const Triangle& triangle : triangles) {
-        const std::optional<Sample> taken = measure_.sample(triangle);
-        if (!taken) continue;
-        measure_.accumulate(*taken);
-        samples.push_back(*taken);
-      }
-    }
+    take_samples(groups, samples);
+  }
+  void sample(std::size_t, std::span<const Chart> groups, std::vector<Sample>& samples) override {
+    take_samples(groups, samples);
+  }
+  void cut(std::size_t, const Sample& sample) override {
+    if constexpr (HearsOfCuts<M>) measure_.cut(sample);
   }
 
  private:
@@ -97,6 +115,18 @@ class MeasureOf final : public AnyMeasure {
   void accumulate(std::span<const Group> groups) {
     if constexpr (Accumulates<M, Group>) {
       for (const Group& group : groups) measure_.accumulate(group);
+    }
+  }
+
+  template <class Group>
+  void take_samples(std::span<const Group> groups, std::vector<Sample>& samples) {
+    if constexpr (Samples<M, Group>) {
+      for (const Group& group : groups) {
+        const std::optional<Sample> taken = measure_.sample(group);
+        if (!taken) continue;
+        measure_.accumulate(*taken);
+        samples.push_back(*taken);
+      }
     }
   }
 

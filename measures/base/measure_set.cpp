@@ -18,9 +18,17 @@ class MeasureSet::Partials : public GroupSink {
   void accept(std::span<const VertexStar> groups) override { hand_over(groups); }
   void accept(std::span<const Component> groups) override { hand_over(groups); }
   void accept(std::span<const Chart> groups) override { hand_over(groups); }
+  void accept(std::span<const TextureLevel> groups) override { hand_over(groups); }
   void sample(std::size_t distribution, std::span<const Triangle> triangles,
               std::vector<Sample>& samples) override {
     sampled_[distribution]->sample(distribution, triangles, samples);
+  }
+  void sample(std::size_t distribution, std::span<const Chart> charts,
+              std::vector<Sample>& samples) override {
+    sampled_[distribution]->sample(distribution, charts, samples);
+  }
+  void cut(std::size_t distribution, const Sample& sample) override {
+    sampled_[distribution]->cut(distribution, sample);
   }
 
   const std::vector<AnyMeasure*>& sampled() const { return sampled_; }
@@ -49,6 +57,12 @@ std::vector<std::string> MeasureSet::distributions() const {
   std::vector<std::string> names;
   for (const AnyMeasure* measure : partials_[0]->sampled()) names.emplace_back(measure->name());
   return names;
+}
+
+double MeasureSet::cutoff(std::size_t distribution) const {
+  const std::unique_ptr<AnyMeasure> whole = partials_[0]->sampled()[distribution]->fresh();
+  for (const auto& partials : partials_) whole->merge(*partials->sampled()[distribution]);
+  return whole->cutoff();
 }
 
 GroupSink& MeasureSet::of_worker(std::size_t worker) {

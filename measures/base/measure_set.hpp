@@ -15,6 +15,7 @@ class MeasureSet : public GroupSinks {
 
   GroupSink& of_worker(std::size_t worker) override;
   std::vector<std::string> distributions() const override;
+  double cutoff(std::size_t distribution) const override;
 
   /// Merges the partials of all workers and finishes the measures.
   Report finish(const MeshFacts& facts);

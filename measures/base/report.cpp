@@ -1,6 +1,8 @@
 #include "measures/base/report.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -30,40 +32,42 @@ Keys statistics(const std::string& prefix) {
   return keys;
 }
 
-/// SPEC sections 2 and 3, in their order.
-Keys ordered_keys(std::size_t textures) {
-  Keys keys{"mesh",
-            "fn",
-            "vn",
-            "en",
-            "en_b",
-            "nonmanif_edge",
-            "nonmanif_vert",
-            "area",
-            "boundary_len",
-            "area_normalized",
-            "boundary_len_normalized",
-            "connected_components",
-            "boundary_loops",
-            "genus",
-            "fndup",
-            "fnzero",
-            "fndegen",
-            "vnunref",
-            "oriented",
-            "orientable",
-            "num_charts",
-            "num_null_charts",
-            "en_uv",
-            "en_uv_b",
-            "area_uv",
-            "boundary_len_uv",
-            "mapped_fraction",
-            "nfolds",
-            "ntex",
-            "textures"};
-  for (std::size_t i = 0; i < textures; ++i) keys.push_back("texture_" + std::to_string(i));
-  append(keys, {"occupancy"});
+/// SPEC sections 2 and 3, in their order, up to the textures.
+Keys keys_before_textures() {
+  return {"mesh",
+          "fn",
+          "vn",
+          "en",
+          "en_b",
+          "nonmanif_edge",
+          "nonmanif_vert",
+          "area",
+          "boundary_len",
+          "area_normalized",
+          "boundary_len_normalized",
+          "connected_components",
+          "boundary_loops",
+          "genus",
+          "fndup",
+          "fnzero",
+          "fndegen",
+          "vnunref",
+          "oriented",
+          "orientable",
+          "num_charts",
+          "num_null_charts",
+          "en_uv",
+          "en_uv_b",
+          "area_uv",
+          "boundary_len_uv",
+          "mapped_fraction",
+          "nfolds",
+          "ntex",
+          "textures"};
+}
+
+Keys keys_after_textures() {
+  Keys keys{"occupancy"};
   append(keys, statistics("qcd"));
   append(keys, {"qcd_discardedArea"});
   append(keys, statistics("sf"));
@@ -79,7 +83,42 @@ Keys ordered_keys(std::size_t textures) {
           "faces_nonfinite", "uv_far", "charts_nonorientable", "seam_edges_unsampled",
           "overlap_within_chart_texels", "overlap_between_charts_texels"});
   append(keys, statistics("texel_density"));
+  append(keys, statistics("chart_area"));
+  append(keys, {"thin_charts_fraction", "thin_charts_area_fraction"});
   return keys;
+}
+
+bool contains(const Keys& keys, const std::string& key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// Names that are not UTF-8 get replacement characters.
+std::string text_of(const Json& value, int indentation = -1) {
+  return value.dump(indentation, ' ', false, Json::error_handler_t::replace);
+}
+
+/// A value that ends a line, its own lines one step further in. Texts hold no line ends of their
+/// own.
+std::string indented(const Json& value) {
+  std::string text;
+  for (const char c : text_of(value, 1)) {
+    text += c;
+    if (c == '\n') text += ' ';
+  }
+  return text;
+}
+
+/// The levels of one texture, a line each.
+std::string level_lines(const Json& levels) {
+  std::string text;
+  for (const Json& level : levels) {
+    text += (text.empty() ? "[\n  " : ",\n  ") + text_of(level);
+  }
+  return text.empty() ? "[]" : text + "\n ]";
+}
+
+bool is_levels(const std::string& key, const Json& value) {
+  return key.starts_with("texture_") && value.is_array();
 }
 
 }  // namespace
@@ -88,25 +127,57 @@ void Report::set(const std::string& key, double value) {
   values_[key] = std::isfinite(value) ? Json(value) : Json();
 }
 
-const Json& Report::at(const std::string& key) const {
-  const auto found = values_.find(key);
-  if (found == values_.end()) throw Error(ErrorKind::kInternal, "the report has no key " + key);
-  return found->second;
+void Report::set_textures(std::uint64_t count, Textures textures) {
+  texture_count_ = count;
+  textures_ = std::move(textures);
 }
 
-// Appends to the object itself: Json's own insertion looks through all keys for an equal one, which
-// takes hours for the keys of very many textures.
-Json Report::to_json() const {
-  const auto ntex = values_.find("ntex");
-  const std::size_t textures = ntex == values_.end() ? 0 : ntex->second.get<std::size_t>();
-  std::map<std::string, Json> others = values_;
-  Json json = {{"schema_version", kSchemaVersion}};
-  auto& members = json.get_ref<Json::object_t&>();
-  for (const std::string& key : ordered_keys(textures)) {
-    auto value = others.extract(key);
-    members.push_back({key, value ? std::move(value.mapped()) : Json()});
+Json Report::value_of(const std::string& key) const {
+  const auto found = values_.find(key);
+  return found == values_.end() ? Json() : found->second;
+}
+
+Json Report::at(const std::string& key) const {
+  if (!values_.contains(key) && !contains(keys_before_textures(), key) &&
+      !contains(keys_after_textures(), key)) {
+    throw Error(ErrorKind::kInternal, "the report has no key " + key);
   }
-  for (auto& [key, value] : others) members.push_back({key, std::move(value)});
+  return value_of(key);
+}
+
+void Report::visit(const std::function<void(const std::string&, const Json&)>& use) const {
+  std::set<std::string> others;
+  for (const auto& [key, value] : values_) others.insert(key);
+  const auto use_keys = [&](const Keys& keys) {
+    for (const std::string& key : keys) {
+      use(key, value_of(key));
+      others.erase(key);
+    }
+  };
+  use("schema_version", kSchemaVersion);
+  use_keys(keys_before_textures());
+  const std::function<Json()> next = textures_ ? textures_() : nullptr;
+  for (std::uint64_t i = 0; i < texture_count_; ++i) use("texture_" + std::to_string(i), next());
+  use_keys(keys_after_textures());
+  for (const std::string& key : others) use(key, value_of(key));
+}
+
+void Report::write(const std::function<void(std::string_view)>& put) const {
+  std::string line = "{\n ";
+  visit([&](const std::string& key, const Json& value) {
+    line += text_of(Json(key)) + ": ";
+    line += is_levels(key, value) ? level_lines(value) : indented(value);
+    put(line);
+    line = ",\n ";
+  });
+  put("\n}\n");
+}
+
+// Appends to the object itself: Json's own insertion looks through all keys for an equal one.
+Json Report::to_json() const {
+  Json json = Json::object();
+  auto& members = json.get_ref<Json::object_t&>();
+  visit([&](const std::string& key, const Json& value) { members.push_back({key, value}); });
   return json;
 }
 

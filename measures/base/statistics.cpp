@@ -2,13 +2,14 @@
 
 namespace atlasgauge {
 
-void report_moments(Report& report, const std::string& prefix, const WeightedMoments& moments) {
-  report.set(prefix + "_min", moments.smallest());
-  report.set(prefix + "_max", moments.largest());
-  report.set(prefix + "_avg", moments.mean());
-  report.set(prefix + "_rms", moments.rms());
-  report.set(prefix + "_var", moments.variance());
-  report.set(prefix + "_stddev", moments.standard_deviation());
+void report_moments(Report& report, const std::string& prefix, const WeightedMoments& moments,
+                    double unit) {
+  report.set(prefix + "_min", moments.smallest() / unit);
+  report.set(prefix + "_max", moments.largest() / unit);
+  report.set(prefix + "_avg", moments.mean() / unit);
+  report.set(prefix + "_rms", moments.rms() / unit);
+  report.set(prefix + "_var", moments.variance() / unit / unit);
+  report.set(prefix + "_stddev", moments.standard_deviation() / unit);
 }
 
 void report_percentiles(Report& report, const std::string& prefix, const PercentileValues& values) {

@@ -22,6 +22,14 @@ void WeightedMoments::merge(const WeightedMoments& other) {
   second_.merge(other.second_);
 }
 
+void WeightedMoments::remove(const WeightedMoments& other, double largest) {
+  count_ -= other.count_;
+  largest_ = largest;
+  weight_.subtract(other.weight_);
+  first_.subtract(other.first_);
+  second_.subtract(other.second_);
+}
+
 double WeightedMoments::mean() const {
   return static_cast<double>(first_.precise() / weight_.precise());
 }

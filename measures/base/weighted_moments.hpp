@@ -15,7 +15,11 @@ class WeightedMoments {
  public:
   void add(double value, double weight);
   void merge(const WeightedMoments& other);
+  /// Takes back values that were added; `largest` is the largest that is left.
+  void remove(const WeightedMoments& other, double largest);
 
+  /// Sum of the weights.
+  double weight() const { return weight_.value(); }
   /// NaN where there is no weight.
   double mean() const;
   double rms() const;

@@ -42,21 +42,25 @@ struct KeyRanges {
 template <class Record>
 class KeyedGroups {
  public:
+  /// A number of buckets for plan() and distribute(): workers then end at about the same time.
+  static std::uint64_t even_buckets(const Engine& engine) { return 4 * engine.workers.count(); }
+
   /// Called by worker threads, one group at a time each; the records may be reordered in place.
   using OnGroup = std::function<void(std::size_t worker, std::span<Record> group)>;
   /// Called by the calling thread when no worker is busy.
   using OnHotKey = std::function<void(std::uint32_t key, Spill<Record> records)>;
 
   /// Plans for about `records` of keys below `key_end`; `memory_bytes` will be free for the
-  /// processing, `distribution_bytes` for the writing.
+  /// processing, `distribution_bytes` for the writing. `least_buckets`, as far as memory goes, are
+  /// for groups that are long in work rather than in records: workers take a bucket at a time.
   static KeyRanges plan(const Engine& engine, std::uint64_t records, std::uint32_t key_first,
                         std::uint32_t key_end, std::uint64_t memory_bytes,
-                        std::uint64_t distribution_bytes) {
+                        std::uint64_t distribution_bytes, std::uint64_t least_buckets = 1) {
     const std::uint64_t worker_bytes =
         std::max<std::uint64_t>(1, memory_bytes / engine.workers.count());
     // Two thirds full on average, so that ordinary scatter does not overflow a bucket.
     const std::uint64_t bytes = records * record_bytes() + std::uint64_t{key_end - key_first} * 4;
-    const std::uint64_t wanted = bytes * 3 / (worker_bytes * 2) + 1;
+    const std::uint64_t wanted = std::max(least_buckets, bytes * 3 / (worker_bytes * 2) + 1);
     const std::uint64_t bucket_cost =
         Partition<Record>::memory_bytes(1, engine.workers.count(), engine.block_bytes());
     const std::uint64_t affordable = std::max<std::uint64_t>(2, distribution_bytes / bucket_cost);
@@ -75,10 +79,10 @@ class KeyedGroups {
   /// push(record), from one thread. `fill` may use up to three blocks of memory besides.
   template <class Fill>
   static Buckets distribute(const Engine& engine, std::uint64_t records, std::uint64_t key_end,
-                            std::string_view who, Fill fill) {
+                            std::string_view who, Fill fill, std::uint64_t least_buckets = 1) {
     const std::uint64_t free_bytes = engine.budget.free_bytes();
     const KeyRanges ranges = plan(engine, records, 0, static_cast<std::uint32_t>(key_end),
-                                  free_bytes / 8 * 7, free_bytes / 2);
+                                  free_bytes / 8 * 7, free_bytes / 2, least_buckets);
     const Reservation memory = engine.budget.reserve(
         Partition<Record>::memory_bytes(ranges.bucket_count(), 1, engine.block_bytes()) +
             3 * engine.block_bytes(),

@@ -243,10 +243,39 @@ class Selection {
 
 }  // namespace
 
-Quantiles SampleStore::select(const Engine& engine) {
+SampleSet SampleSet::up_to(const Engine& engine, double cutoff, const OnCut& on_cut) const {
+  const std::size_t workers = engine.workers.count();
+  const Reservation memory = engine.budget.reserve(
+      workers * (engine.block_bytes() + Partition<Sample>::staging_bytes()) + engine.block_bytes(),
+      "samples up to a cutoff");
+  SampleStore kept(engine.scratch);
+  std::vector<SampleStore::Writer> writers(workers, SampleStore::Writer(kept));
+  std::vector<BlockBuffer> buffers(workers);
+  engine.workers.for_each(samples_.block_count(), [&](std::size_t worker, std::size_t block) {
+    for (const Sample& sample : samples_.load(block, buffers[worker])) {
+      sample.value <= cutoff ? writers[worker].push(sample) : on_cut(worker, sample);
+    }
+  });
+  for (SampleStore::Writer& writer : writers) writer.flush();
+  return kept.finish();
+}
+
+Quantiles SampleSet::select(const Engine& engine) {
   const std::uint64_t smallest = key_of(std::min(smallest_, largest_));
-  Selection selection(engine, samples_.finish(), heaviest_);
+  Selection selection(engine, std::move(samples_), heaviest_);
   return selection.run(smallest, key_of(largest_));
+}
+
+Distribution select_up_to(const Engine& engine, SampleSet samples, double cutoff,
+                          const SampleSet::OnCut& on_cut) {
+  if (samples.largest() <= cutoff) {
+    const double largest = samples.largest();
+    const Quantiles all = samples.select(engine);
+    return {all, all, largest};
+  }
+  SampleSet kept = samples.up_to(engine, cutoff, on_cut);
+  const double largest = kept.largest();
+  return {samples.select(engine), kept.select(engine), largest};
 }
 
 }  // namespace atlasgauge

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "stream/engine/engine.hpp"
@@ -24,7 +26,42 @@ struct Quantiles {
   std::array<double, kPercents.size()> falling;
 };
 
-/// Samples of one distribution, in scratch, with the bounds that selection starts from.
+/// The percentiles of a distribution, and of what a cutoff leaves of it.
+struct Distribution {
+  Quantiles all;
+  Quantiles kept;  ///< of the samples up to the cutoff; the same as `all` where none is cut
+  double largest_kept = 0;  ///< 0 where there is none
+};
+
+/// Samples of one distribution, all in scratch, with the bounds that selection starts from.
+class SampleSet {
+ public:
+  SampleSet(Spill<Sample> samples, double smallest, double largest, double heaviest)
+      : samples_(std::move(samples)), smallest_(smallest), largest_(largest), heaviest_(heaviest) {}
+
+  double largest() const { return largest_; }
+
+  /// Hears of samples beyond a cutoff; any worker.
+  using OnCut = std::function<void(std::size_t worker, const Sample& sample)>;
+  /// A copy of the samples up to the cutoff.
+  SampleSet up_to(const Engine& engine, double cutoff, const OnCut& on_cut) const;
+
+  /// Exact: weights are summed as integers in units of 2^-62 of the heaviest, and the quantiles are
+  /// elements of the data. Values are taken by the bits of the double, which for numbers that are
+  /// not negative have the same order: a histogram over their range, then over the bins that hold a
+  /// quantile, until what is left fits in memory and is sorted. Consumes the samples.
+  Quantiles select(const Engine& engine);
+
+ private:
+  Spill<Sample> samples_;
+  double smallest_, largest_, heaviest_;
+};
+
+/// The quantiles of all samples, and of those up to the cutoff.
+Distribution select_up_to(const Engine& engine, SampleSet samples, double cutoff,
+                          const SampleSet::OnCut& on_cut);
+
+/// Takes the samples of one distribution, from all workers.
 class SampleStore {
  public:
   explicit SampleStore(Scratch& scratch) : samples_(scratch) {}
@@ -54,12 +91,8 @@ class SampleStore {
     double heaviest_ = 0;
   };
 
-  /// After all writers were flushed. Exact: weights are summed as integers in units of 2^-62 of the
-  /// heaviest, and the quantiles are elements of the data. Values are taken by the bits of the
-  /// double, which for numbers that are not negative have the same order: a histogram over their
-  /// range, then over the bins that hold a quantile, until what is left fits in memory and is
-  /// sorted. Consumes the samples.
-  Quantiles select(const Engine& engine);
+  /// After all writers were flushed; the store is empty then.
+  SampleSet finish() { return {samples_.finish(), smallest_, largest_, heaviest_}; }
 
  private:
   SharedSpill<Sample> samples_;

@@ -157,7 +157,9 @@ class SpillReader {
  public:
   enum class Mode { kKeep, kConsume };
 
-  explicit SpillReader(Spill<T>& spill, Mode mode = Mode::kKeep) : spill_(&spill), mode_(mode) {}
+  explicit SpillReader(const Spill<T>& spill) : spill_(&spill) {}
+  SpillReader(Spill<T>& spill, Mode mode)
+      : spill_(&spill), consumed_(mode == Mode::kConsume ? &spill : nullptr) {}
 
   /// The next records, up to a block of them, valid until the next call; empty at the end.
   std::span<const T> next_block() {
@@ -190,14 +192,14 @@ class SpillReader {
 
  private:
   void leave_block() {
-    if (mode_ == Mode::kConsume && next_ > 0 && next_ - 1 < spill_->block_count() && !left_end_) {
-      spill_->free_block(next_ - 1);
+    if (consumed_ != nullptr && next_ > 0 && next_ - 1 < spill_->block_count() && !left_end_) {
+      consumed_->free_block(next_ - 1);
       left_end_ = next_ == spill_->block_count();
     }
   }
 
-  Spill<T>* spill_;
-  Mode mode_;
+  const Spill<T>* spill_;
+  Spill<T>* consumed_ = nullptr;
   BlockBuffer buffer_;
   std::span<const T> rest_;
   std::size_t next_ = 0;

@@ -3,53 +3,110 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
+#include "stream/engine/gather.hpp"
 #include "stream/engine/keyed_groups.hpp"
+#include "stream/engine/sort_spill.hpp"
 
 namespace atlasgauge {
 namespace {
 
 __extension__ typedef __int128 Int128;
 
-/// A face in its chart.
-struct ChartFace {
+/// A face in its chart, or one of the chart's border edges.
+struct ChartPart {
   std::uint32_t chart;
   std::uint32_t face_and_flags;
-  double area_uv;
+  std::uint32_t slot_and_flags;
+  UvBox box;
+  double area_uv;            ///< signed
+  double area_3d_or_length;  ///< length in texels of a border
 
   static constexpr std::uint32_t kFlipped = 1U << 30;
   static constexpr std::uint32_t kConflict = 1U << 31;
+  static constexpr std::uint32_t kBorder = 1U << 31;
 
   std::uint32_t key() const { return chart; }
   FaceId face() const { return FaceId{face_and_flags & ~(kFlipped | kConflict)}; }
   bool flipped() const { return (face_and_flags & kFlipped) != 0; }
   bool conflict() const { return (face_and_flags & kConflict) != 0; }
+  bool is_border() const { return (slot_and_flags & kBorder) != 0; }
 };
-static_assert(sizeof(ChartFace) == 16);
+static_assert(sizeof(ChartPart) == 48);
 
-/// Adds up one chart. Areas are summed in fixed point, in units of 2^-62 of the largest face, so
-/// that the total does not depend on the order of the faces; their signs are taken before rounding.
+/// Numbers in units of 2^-61 of the largest, so that sums do not depend on the order. That largest
+/// is the chart's own: a single face elsewhere may be 10^76 times larger.
+class FixedUnit {
+ public:
+  void take(double value) { largest_ = std::max(largest_, std::abs(value)); }
+  void fix() { scale_ = 61 - std::ilogb(std::max(largest_, 1e-300)); }
+  Int128 of(double value) const {
+    return static_cast<Int128>(std::llrint(std::scalbn(value, scale_)));
+  }
+  double value(Int128 sum) const { return std::scalbn(static_cast<double>(sum), -scale_); }
+
+ private:
+  double largest_ = 0;
+  int scale_ = 0;
+};
+
+/// What the sums of one chart are counted in.
+struct ChartUnits {
+  FixedUnit area_uv, area_3d, length;
+
+  void take(const ChartPart& part) {
+    if (part.is_border()) return length.take(part.area_3d_or_length);
+    area_uv.take(part.area_uv);
+    area_3d.take(part.area_3d_or_length);
+  }
+  void fix() {
+    area_uv.fix();
+    area_3d.fix();
+    length.fix();
+  }
+};
+
+/// Adds up one chart, in fixed point; signs are taken before rounding.
 class ChartSum {
  public:
-  ChartSum(std::uint32_t chart, double largest_area_uv)
-      : chart_(chart), scale_(62 - std::ilogb(std::max(largest_area_uv, 1e-300)) - 1) {}
+  ChartSum(std::uint32_t chart, ChartUnits units) : chart_(chart), units_(units) { units_.fix(); }
 
-  void add(const ChartFace& face) {
+  void add(const ChartPart& part) {
+    if (part.is_border()) {
+      perimeter_ += units_.length.of(part.area_3d_or_length);
+      return;
+    }
     ++faces_;
-    conflict_ = conflict_ || face.conflict();
-    if (face.area_uv == 0) return;
-    const auto area = static_cast<Int128>(std::llrint(std::scalbn(face.area_uv, scale_)));
+    slot_ = part.slot_and_flags;
+    conflict_ = conflict_ || part.conflict();
+    box_.merge(part.box);
+    area_3d_ += units_.area_3d.of(part.area_3d_or_length);
+    if (part.area_uv == 0) return;
+    const Int128 area = units_.area_uv.of(part.area_uv);
     absolute_ += area < 0 ? -area : area;
-    as_is_.add(area, face.area_uv > 0);
-    coherent_.add(face.flipped() ? -area : area, (face.area_uv > 0) != face.flipped());
+    as_is_.add(area, part.area_uv > 0);
+    coherent_.add(part.flipped() ? -area : area, (part.area_uv > 0) != part.flipped());
   }
 
-  Chart finish() const {
-    const bool null = as_is_.positive + as_is_.negative == 0;
-    return {FaceId{chart_}, faces_, null, !conflict_,
-            (conflict_ ? as_is_ : coherent_).folds(absolute_)};
+  Chart finish(const SlotFrames& frames) const {
+    Chart chart{};
+    chart.first_face = FaceId{chart_};
+    chart.faces = faces_;
+    chart.null = as_is_.positive + as_is_.negative == 0;
+    chart.orientable = !conflict_;
+    chart.folds = (conflict_ ? as_is_ : coherent_).folds(absolute_);
+    chart.slot = slot_ == kNoSlot ? kNone<SlotId> : SlotId{slot_};
+    chart.area_3d = units_.area_3d.value(area_3d_);
+    chart.area_uv = units_.area_uv.value(absolute_);
+    chart.perimeter = units_.length.value(perimeter_);
+    chart.uv_box = box_;
+    const SlotFrame& frame = frames.of(chart.slot);
+    chart.width = frame.width * (double{box_.high_u} - double{box_.low_u});
+    chart.height = frame.height * (double{box_.high_v} - double{box_.low_v});
+    return chart;
   }
+
+  static constexpr std::uint32_t kNoSlot = ChartPart::kBorder - 1;
 
  private:
   struct Signs {
@@ -72,69 +129,165 @@ class ChartSum {
   };
 
   std::uint32_t chart_;
-  int scale_;
+  ChartUnits units_;
   std::uint64_t faces_ = 0;
+  std::uint32_t slot_ = kNoSlot;
   bool conflict_ = false;
-  Int128 absolute_ = 0;
+  UvBox box_;
+  Int128 area_3d_ = 0, perimeter_ = 0, absolute_ = 0;
   Signs as_is_, coherent_;
 };
 
-KeyedGroups<ChartFace>::Buckets distribute_faces(const Engine& engine, FaceLabels& labels,
-                                                 Spill<FaceFacts>& facts) {
-  const auto push_faces = [&](auto push) {
-    SpillReader<Label> charts(labels.by_all_edges());
-    SpillReader<Label> classes(labels.by_manifold_edges());
-    SpillReader<FaceFacts> faces(facts);
-    FaceFacts face;
-    Label chart, orientation;
-    for (std::uint32_t number = 0;
-         faces.read(face) && charts.read(chart) && classes.read(orientation); ++number) {
-      if (!face.at_welded_level()) continue;
-      const std::uint32_t flags = (orientation.parity() ? ChartFace::kFlipped : 0) |
-                                  (orientation.conflict() ? ChartFace::kConflict : 0);
-      push({chart.first(), number | flags, face.area_uv()});
-    }
-  };
-  return KeyedGroups<ChartFace>::distribute(engine, facts.size(), facts.size(),
-                                            "distributing faces to charts", push_faces);
+ChartPart part_of(const Label& chart, std::uint32_t flags, const FaceFacts& facts,
+                  const AtlasFace& face, std::uint32_t number) {
+  ChartPart part{};
+  part.chart = chart.first();
+  part.face_and_flags = number | flags;
+  part.slot_and_flags = face.slot() == kNone<SlotId> ? ChartSum::kNoSlot : raw(face.slot());
+  part.area_uv = facts.area_uv();
+  part.area_3d_or_length = face.area_3d();
+  for (int k = 0; k < 3 && face.has_uv_triangle(); ++k) part.box.add(face.uv(k));
+  return part;
 }
+
+template <class Push>
+void push_faces(ChartParts& parts, Push push) {
+  SpillReader<Label> charts(parts.labels.by_all_edges());
+  SpillReader<Label> classes(parts.labels.by_manifold_edges());
+  SpillReader<FaceFacts> all_facts(parts.facts);
+  SpillReader<AtlasFace> faces(parts.faces);
+  FaceFacts facts;
+  AtlasFace face;
+  Label chart, orientation;
+  for (std::uint32_t number = 0;
+       all_facts.read(facts) && faces.read(face) && charts.read(chart) && classes.read(orientation);
+       ++number) {
+    if (!facts.at_welded_level()) continue;
+    const std::uint32_t flags = (orientation.parity() ? ChartPart::kFlipped : 0) |
+                                (orientation.conflict() ? ChartPart::kConflict : 0);
+    push(part_of(chart, flags, facts, face, number));
+  }
+}
+
+/// The charts of the borders, in their order.
+Spill<Label> charts_of(const Engine& engine, Spill<BorderEdge>& borders, Spill<Label>& charts) {
+  SpillWriter<std::uint32_t> faces(engine.scratch);
+  SpillReader<BorderEdge> reader(borders);
+  BorderEdge border{};
+  while (reader.read(border)) faces.push(raw(border.face));
+  return gather(engine, faces.finish(), charts, Label());
+}
+
+template <class Push>
+void push_borders(Spill<BorderEdge>& borders, Spill<Label>& charts_of_borders, Push push) {
+  SpillReader<BorderEdge> edges(borders, SpillReader<BorderEdge>::Mode::kConsume);
+  SpillReader<Label> charts(charts_of_borders, SpillReader<Label>::Mode::kConsume);
+  BorderEdge border{};
+  Label chart;
+  while (edges.read(border) && charts.read(chart)) {
+    push({chart.first(), 0, ChartPart::kBorder, {}, 0, border.length_texels});
+  }
+}
+
+KeyedGroups<ChartPart>::Buckets distribute_parts(const Engine& engine, ChartParts& parts) {
+  Spill<Label> charts_of_borders;
+  if (!parts.borders.empty()) {
+    charts_of_borders = charts_of(engine, parts.borders, parts.labels.by_all_edges());
+  }
+  return KeyedGroups<ChartPart>::distribute(engine, parts.facts.size() + parts.borders.size(),
+                                            parts.facts.size(), "distributing faces to charts",
+                                            [&](auto push) {
+                                              push_faces(parts, push);
+                                              push_borders(parts.borders, charts_of_borders, push);
+                                            });
+}
+
+/// Where one worker puts its charts.
+class ChartOutput {
+ public:
+  ChartOutput(GroupSink& sink, SharedSpill<FaceId>& null_faces, SharedSpill<Chart>* kept,
+              std::vector<std::unique_ptr<SampleStore>>& samples)
+      : sink_(&sink), charts_(sink), null_faces_(null_faces) {
+    if (kept != nullptr) kept_.emplace_back(*kept);
+    for (auto& store : samples) samples_.emplace_back(*store);
+  }
+
+  void push(const Chart& chart) {
+    charts_.push(chart);
+    for (auto& kept : kept_) kept.push(chart);
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      taken_.clear();
+      sink_->sample(i, std::span(&chart, 1), taken_);
+      for (const Sample& sample : taken_) samples_[i].push(sample);
+    }
+  }
+  void push_null_face(FaceId face) { null_faces_.push(face); }
+
+  void flush() {
+    charts_.flush();
+    null_faces_.flush();
+    for (auto& kept : kept_) kept.flush();
+    for (auto& writer : samples_) writer.flush();
+  }
+
+ private:
+  GroupSink* sink_;
+  GroupBuffer<Chart> charts_;
+  SharedSpill<FaceId>::Writer null_faces_;
+  std::vector<SharedSpill<Chart>::Writer> kept_;  // one, or none
+  std::vector<SampleStore::Writer> samples_;
+  std::vector<Sample> taken_;
+};
 
 }  // namespace
 
-Spill<FaceId> group_charts(const Engine& engine, FaceLabels& labels, Spill<FaceFacts>& facts,
-                           double largest_area_uv, GroupSinks& sinks) {
+ChartResults group_charts(const Engine& engine, ChartParts parts, const SlotFrames& frames,
+                          bool keep, GroupSinks& sinks,
+                          std::vector<std::unique_ptr<SampleStore>>& samples) {
+  const std::size_t workers = engine.workers.count();
+  KeyedGroups<ChartPart>::Buckets buckets = distribute_parts(engine, parts);
+  const Reservation memory = engine.budget.reserve(
+      (samples.size() + 2) * Partition<Sample>::memory_bytes(1, workers, engine.block_bytes()),
+      "charts and samples of them");
   SharedSpill<FaceId> null_faces(engine.scratch);
-  std::vector<SharedSpill<FaceId>::Writer> null_writers;
-  std::vector<GroupBuffer<Chart>> outputs;
-  for (std::size_t i = 0; i < engine.workers.count(); ++i) {
-    outputs.emplace_back(sinks.of_worker(i));
-    null_writers.emplace_back(null_faces);
+  SharedSpill<Chart> kept(engine.scratch);
+  std::vector<ChartOutput> outputs;
+  for (std::size_t i = 0; i < workers; ++i) {
+    outputs.emplace_back(sinks.of_worker(i), null_faces, keep ? &kept : nullptr, samples);
   }
-  KeyedGroups<ChartFace> groups(
+  KeyedGroups<ChartPart> groups(
       engine,
-      [&](std::size_t worker, std::span<ChartFace> faces) {
-        ChartSum sum(faces[0].chart, largest_area_uv);
-        for (const ChartFace& face : faces) sum.add(face);
-        const Chart chart = sum.finish();
+      [&](std::size_t worker, std::span<ChartPart> group) {
+        ChartUnits units;
+        for (const ChartPart& part : group) units.take(part);
+        ChartSum sum(group[0].chart, units);
+        for (const ChartPart& part : group) sum.add(part);
+        const Chart chart = sum.finish(frames);
         outputs[worker].push(chart);
         if (!chart.null) return;
-        for (const ChartFace& face : faces) null_writers[worker].push(face.face());
+        for (const ChartPart& part : group) {
+          if (!part.is_border()) outputs[worker].push_null_face(part.face());
+        }
       },
-      [&](std::uint32_t number, Spill<ChartFace> faces) {
-        ChartSum sum(number, largest_area_uv);
-        ChartFace face{};
-        for (SpillReader<ChartFace> reader(faces); reader.read(face);) sum.add(face);
-        const Chart chart = sum.finish();
+      [&](std::uint32_t number, Spill<ChartPart> group) {
+        ChartUnits units;
+        ChartPart part{};
+        for (SpillReader<ChartPart> reader(group); reader.read(part);) units.take(part);
+        ChartSum sum(number, units);
+        for (SpillReader<ChartPart> reader(group); reader.read(part);) sum.add(part);
+        const Chart chart = sum.finish(frames);
         outputs[0].push(chart);
         if (!chart.null) return;
-        for (SpillReader<ChartFace> reader(faces); reader.read(face);) {
-          null_writers[0].push(face.face());
+        for (SpillReader<ChartPart> reader(group); reader.read(part);) {
+          if (!part.is_border()) outputs[0].push_null_face(part.face());
         }
       });
-  groups.process(distribute_faces(engine, labels, facts));
-  for (auto& output : outputs) output.flush();
-  for (auto& writer : null_writers) writer.flush();
-  return null_faces.finish();
+  groups.process(std::move(buckets));
+  for (ChartOutput& output : outputs) output.flush();
+  const auto by_number = [](const Chart& a, const Chart& b) {
+    return raw(a.first_face) < raw(b.first_face);
+  };
+  return {null_faces.finish(), sort_spill(engine, kept.finish(), by_number)};
 }
 
 }  // namespace atlasgauge

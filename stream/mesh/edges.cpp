@@ -43,13 +43,16 @@ bool same_uv_edge(const HalfEdge& a, const HalfEdge& b) {
 /// Where one worker puts what its edges say.
 struct Output {
   Output(GroupSink& sink, SharedSpill<Link>& raw, SharedSpill<Link>& uv,
-         SharedSpill<Link>& boundary, SharedSpill<SeamCandidate>& seam)
+         SharedSpill<Link>& boundary, SharedSpill<SeamCandidate>& seam,
+         SharedSpill<BorderEdge>& border, bool with_borders)
       : raw_edges(sink),
         uv_edges(sink),
         raw_links(raw),
         uv_links(uv),
         boundary_links(boundary),
-        seams(seam) {}
+        seams(seam),
+        keep_borders(with_borders),
+        borders(border) {}
 
   void flush() {
     raw_edges.flush();
@@ -58,12 +61,15 @@ struct Output {
     uv_links.flush();
     boundary_links.flush();
     seams.flush();
+    borders.flush();
   }
 
   GroupBuffer<RawEdge> raw_edges;
   GroupBuffer<UvEdge> uv_edges;
   SharedSpill<Link>::Writer raw_links, uv_links, boundary_links;
   SharedSpill<SeamCandidate>::Writer seams;
+  bool keep_borders;
+  SharedSpill<BorderEdge>::Writer borders;
   bool raw_manifold = true;
   bool uv_manifold = true;
 };
@@ -141,7 +147,11 @@ class UvEdges {
   void close() {
     if (chain_.faces() == 0) return;
     chain_.close(output_.uv_links);
-    output_.uv_edges.push({chain_.faces(), length(chain_.first())});
+    const double edge_length = length(chain_.first());
+    output_.uv_edges.push({chain_.faces(), edge_length});
+    if (chain_.faces() == 1 && output_.keep_borders) {
+      output_.borders.push({chain_.first().face, 0, edge_length});
+    }
     if (chain_.faces() > 2) output_.uv_manifold = false;
     chain_.clear();
   }
@@ -192,16 +202,17 @@ class EdgeTableOf : public EdgeTable {
     }
   }
 
-  EdgeResults group(const SlotFrames& frames, GroupSinks& sinks) override {
+  EdgeResults group(const SlotFrames& frames, bool keep_borders, GroupSinks& sinks) override {
     typename KeyedGroups<Record>::Buckets buckets = end_distribution();
     StageLog::Stage stage(engine_.log, "edges", buckets.spills.size());
     const Reservation outputs_memory = engine_.budget.reserve(
-        4 * engine_.block_bytes() + engine_.workers.count() * kOutputBytes, "links of edges");
+        5 * engine_.block_bytes() + engine_.workers.count() * kOutputBytes, "links of edges");
     SharedSpill<Link> raw(engine_.scratch), uv(engine_.scratch), boundary(engine_.scratch);
     SharedSpill<SeamCandidate> seams(engine_.scratch);
+    SharedSpill<BorderEdge> borders(engine_.scratch);
     std::vector<Output> outputs;
     for (std::size_t i = 0; i < engine_.workers.count(); ++i) {
-      outputs.emplace_back(sinks.of_worker(i), raw, uv, boundary, seams);
+      outputs.emplace_back(sinks.of_worker(i), raw, uv, boundary, seams, borders, keep_borders);
     }
     KeyedGroups<Record> groups(
         engine_,
@@ -223,11 +234,12 @@ class EdgeTableOf : public EdgeTable {
     results.uv_links = uv.finish();
     results.boundary_links = boundary.finish();
     results.seams = seams.finish();
+    results.borders = borders.finish();
     return results;
   }
 
  private:
-  /// Staging of one worker's four writers and two group buffers.
+  /// Staging of one worker's five writers and two group buffers.
   static constexpr std::uint64_t kOutputBytes = 32 << 10;
 
   static std::uint32_t bits_of_face(const Triangle& triangle, const SlotFrames& frames) {

@@ -18,8 +18,9 @@ struct EdgeResults {
   Spill<Link> uv_links;        ///< faces that share a uv edge
   Spill<Link> boundary_links;  ///< the two vertices of every raw boundary edge
   Spill<SeamCandidate> seams;
-  bool raw_manifold = true;  ///< no raw edge has more than two faces
-  bool uv_manifold = true;   ///< no uv edge has more than two faces
+  Spill<BorderEdge> borders;  ///< uv boundary edges; empty unless they were to be kept
+  bool raw_manifold = true;   ///< no raw edge has more than two faces
+  bool uv_manifold = true;    ///< no uv edge has more than two faces
 };
 
 /// The edge table. Every face emits three half-edges, distributed by their lower welded vertex; one
@@ -37,7 +38,7 @@ class EdgeTable {
   virtual void add(std::size_t worker, std::span<const Triangle> triangles,
                    const SlotFrames& frames) = 0;
   /// After the last add(): groups them, and hands out RawEdge and UvEdge groups.
-  virtual EdgeResults group(const SlotFrames& frames, GroupSinks& sinks) = 0;
+  virtual EdgeResults group(const SlotFrames& frames, bool keep_borders, GroupSinks& sinks) = 0;
 };
 
 }  // namespace atlasgauge

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -30,6 +32,45 @@ class FaceFacts {
  private:
   static constexpr double kRawOnly = std::numeric_limits<double>::quiet_NaN();
   double bits_ = 0;
+};
+
+/// A face in the atlas, in face order: what charts and raster ask for. 36 bytes.
+class AtlasFace {
+ public:
+  AtlasFace() = default;
+  explicit AtlasFace(const Triangle& triangle)
+      : uv_{triangle.t[0], triangle.t[1], triangle.t[2]},
+        bits_((raw(triangle.slot) & kSlotMask) |
+              (triangle.at_welded_level() && triangle.has_uv_triangle ? kUvTriangle : 0) |
+              (triangle.uv_far ? kFar : 0)),
+        area_3d_(std::bit_cast<std::array<std::uint32_t, 2>>(triangle.area_3d)) {}
+
+  const TexCoord& uv(int corner) const { return uv_[corner]; }
+  SlotId slot() const {
+    const std::uint32_t slot = bits_ & kSlotMask;
+    return slot == kSlotMask ? kNone<SlotId> : SlotId{slot};
+  }
+  /// At the welded level, with three finite UVs, on a slot with a size.
+  bool has_uv_triangle() const { return (bits_ & kUvTriangle) != 0; }
+  bool is_drawn() const { return has_uv_triangle() && (bits_ & kFar) == 0; }
+  double area_3d() const { return std::bit_cast<double>(area_3d_); }
+
+ private:
+  static constexpr std::uint32_t kUvTriangle = 1U << 31;
+  static constexpr std::uint32_t kFar = 1U << 30;
+  static constexpr std::uint32_t kSlotMask = kFar - 1;
+
+  TexCoord uv_[3];
+  std::uint32_t bits_ = 0;
+  std::array<std::uint32_t, 2> area_3d_{};  // in halves, which need no padding
+};
+static_assert(sizeof(AtlasFace) == 36);
+
+/// A uv boundary edge with a length, and the face it bounds.
+struct BorderEdge {
+  FaceId face;
+  std::uint32_t padding;
+  double length_texels;
 };
 
 /// One face's side of a welded edge (lo, hi), lo <= hi. Its two UVs are those of the corners at lo

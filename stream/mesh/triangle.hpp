@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -20,10 +21,41 @@ inline std::uint64_t bits_of(const TexCoord& t) {
   return std::bit_cast<std::uint64_t>(t);
 }
 
+/// The box of some UVs.
+struct UvBox {
+  float low_u = 0, low_v = 0, high_u = 0, high_v = 0;
+  bool empty = true;
+
+  void add(const TexCoord& t) {
+    if (empty) {
+      low_u = high_u = t.u;
+      low_v = high_v = t.v;
+      empty = false;
+      return;
+    }
+    low_u = std::min(low_u, t.u);
+    low_v = std::min(low_v, t.v);
+    high_u = std::max(high_u, t.u);
+    high_v = std::max(high_v, t.v);
+  }
+
+  void merge(const UvBox& other) {
+    if (other.empty) return;
+    add({other.low_u, other.low_v});
+    add({other.high_u, other.high_v});
+  }
+};
+
 /// A point in the texel grid of a slot, v up.
 struct Texel {
   double x, y;
 };
+
+/// Whether a point is too far from the texture to be drawn (SPEC section 1).
+inline bool is_far(const Texel& texel) {
+  constexpr double kFarTexels = 1073741824.0;  // 2^30
+  return std::abs(texel.x) > kFarTexels || std::abs(texel.y) > kFarTexels;
+}
 
 /// What of a texture slot turns UVs into texels.
 struct SlotFrame {
@@ -49,6 +81,7 @@ class SlotFrames {
     return slot == kNone<SlotId> ? none_ : frames_[raw(slot)];
   }
   std::vector<SlotFrame>& all() { return frames_; }
+  const std::vector<SlotFrame>& all() const { return frames_; }
 
  private:
   std::vector<SlotFrame> frames_;

@@ -7,8 +7,6 @@
 namespace atlasgauge {
 namespace {
 
-constexpr double kFarTexels = 1073741824.0;  // 2^30
-
 bool names_a_vertex_twice(const FaceRecord& face) {
   return face.v[0] == face.v[1] || face.v[1] == face.v[2] || face.v[2] == face.v[0];
 }
@@ -33,7 +31,7 @@ void map_to_texels(Triangle& triangle, const SlotFrame& frame) {
   for (int k = 0; k < 3; ++k) {
     const Texel texel = frame.texel(triangle.t[k]);
     triangle.texel[k] = texel;
-    if (std::max(std::abs(texel.x), std::abs(texel.y)) > kFarTexels) triangle.uv_far = true;
+    if (is_far(texel)) triangle.uv_far = true;
   }
   triangle.area_uv = signed_area(triangle.texel[0], triangle.texel[1], triangle.texel[2]);
 }
@@ -55,38 +53,14 @@ Triangle triangle_of(const JoinedFace& face, FaceId id, SlotId slot, const SlotF
   return triangle;
 }
 
-/// The box of the UVs that faces have on one slot.
-struct UvBox {
-  float low_u = 0, low_v = 0, high_u = 0, high_v = 0;
-  bool empty = true;
-
-  void add(const TexCoord& t) {
-    if (empty) {
-      low_u = high_u = t.u;
-      low_v = high_v = t.v;
-      empty = false;
-      return;
-    }
-    low_u = std::min(low_u, t.u);
-    low_v = std::min(low_v, t.v);
-    high_u = std::max(high_u, t.u);
-    high_v = std::max(high_v, t.v);
-  }
-
-  void merge(const UvBox& other) {
-    if (other.empty) return;
-    add({other.low_u, other.low_v});
-    add({other.high_u, other.high_v});
-  }
-
-  void shift(SlotFrame& frame) const {
-    const double center_u = 0.5 * (static_cast<double>(low_u) + static_cast<double>(high_u));
-    const double center_v = 0.5 * (static_cast<double>(low_v) + static_cast<double>(high_v));
-    if (center_u >= 0 && center_u <= 1 && center_v >= 0 && center_v <= 1) return;
-    frame.shift_u = -std::floor(static_cast<double>(low_u));
-    frame.shift_v = -std::floor(static_cast<double>(low_v));
-  }
-};
+/// Shifts a slot by whole textures where the centre of its UVs lies outside the unit square.
+void shift(SlotFrame& frame, const UvBox& box) {
+  const double center_u = 0.5 * (static_cast<double>(box.low_u) + static_cast<double>(box.high_u));
+  const double center_v = 0.5 * (static_cast<double>(box.low_v) + static_cast<double>(box.high_v));
+  if (center_u >= 0 && center_u <= 1 && center_v >= 0 && center_v <= 1) return;
+  frame.shift_u = -std::floor(static_cast<double>(box.low_u));
+  frame.shift_v = -std::floor(static_cast<double>(box.low_v));
+}
 
 void shift_frames(const Engine& engine, MeshStore& mesh, Weld& weld, const TextureSlots& slots,
                   std::vector<SlotFrame>& frames) {
@@ -113,7 +87,7 @@ void shift_frames(const Engine& engine, MeshStore& mesh, Weld& weld, const Textu
     for (std::size_t worker = 1; worker < workers; ++worker) {
       boxes[0][slot].merge(boxes[worker][slot]);
     }
-    if (!boxes[0][slot].empty) boxes[0][slot].shift(frames[slot]);
+    if (!boxes[0][slot].empty) shift(frames[slot], boxes[0][slot]);
   }
 }
 

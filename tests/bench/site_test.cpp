@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "io/error.hpp"
+#include "tests/support/oracle/oracle.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -541,6 +542,22 @@ TEST_P(SiteVariant, HasTheAnswersThatCountingGives) {
   for (const auto& [key, value] : counted.items()) expect_same(key, answers.at(key), value);
 }
 
+/// What the oracle contradicts.
+std::vector<std::string> oracle_differences(const SiteOptions& options) {
+  const oracle::Size size{options.texture_size_texels, options.texture_size_texels};
+  const TempDir directory;
+  const Site site(options);
+  write_site(site, directory.path());
+  const nlohmann::json report =
+      oracle::measure_obj(directory.path() + "/" + options.name + ".obj",
+                          {size, [size](const std::string&) { return size; }});
+  return differences(report, site_answers(site));
+}
+
+TEST_P(SiteVariant, HasTheAnswersThatTheOracleGives) {
+  EXPECT_EQ(oracle_differences(GetParam().options), std::vector<std::string>{});
+}
+
 TEST_P(SiteVariant, HasAsManyLinesAsItSays) {
   const Site site(GetParam().options);
   const std::vector<std::string> lines = lines_of(site.options());
@@ -585,6 +602,38 @@ TEST(Site, HasRoofsRampsAndEveryScale) {
   EXPECT_GT(answers["vnunref"], 0);
   EXPECT_EQ(answers["qcd_max"], 2.5);
   EXPECT_LT(answers["angle_min_min"], 45);
+}
+
+TEST(Site, TexturesHaveEveryKindOfTexel) {
+  SiteOptions options = small_site();
+  const nlohmann::json levels = site_answers(Site(options)).values["texture_0"];
+  ASSERT_EQ(levels.size(), 8U);
+  EXPECT_GT(levels[0]["totalTexels_bilinear"], levels[0]["totalTexels"]);
+  EXPECT_LT(levels[0]["boundaryTexels"], levels[0]["totalTexels"]);
+  EXPECT_EQ(levels[0]["texelClashes"], 0);
+  EXPECT_GT(levels[3]["texelClashes"], 0);
+}
+
+/// Some corners come within half a snap of a texel centre, some exactly to half a snap.
+TEST(Site, SnapsCornersOnEveryLevel) {
+  SiteOptions options = small_site();
+  options.texture_size_texels = 512;
+  options.chart_side_min_quads = 1;
+  options.chart_side_max_quads = 2;
+  EXPECT_EQ(oracle_differences(options), std::vector<std::string>{});
+}
+
+TEST(Site, LargestTextureIsCountedWithoutDrawingIt) {
+  SiteOptions options = small_site();
+  options.faces = 200'000;
+  options.texture_size_texels = 65536;
+  options.chart_side_min_quads = 7;
+  options.chart_side_max_quads = 60;
+  const nlohmann::json answers = site_answers(Site(options)).values;
+  const nlohmann::json& levels = answers["texture_0"];
+  ASSERT_EQ(levels.size(), 17U);
+  EXPECT_EQ(levels[0]["totalTexels"].get<double>(), answers["occupancy"].get<double>() * 0x1p32);
+  EXPECT_EQ(levels[16]["rw"], 1);
 }
 
 TEST(Site, ShuffledHasTheSameFacesInAnotherOrder) {
@@ -658,6 +707,11 @@ TEST(Site, RefusesWhatItCannotMake) {
   refuses([](SiteOptions& o) { o.chart_side_min_quads = 0; });
   refuses([](SiteOptions& o) { o.chart_side_max_quads = 3; });
   refuses([](SiteOptions& o) { o.decimals = 5; });
+  refuses([](SiteOptions& o) { o.texture_size_texels = 131072; });
+  refuses([](SiteOptions& o) {
+    o.texture_size_texels = 65536;
+    o.image_format = ImageFormat::kJpg;
+  });
   refuses([](SiteOptions& o) { o.faces = 1'000'000; });
 }
 

@@ -41,7 +41,7 @@ inline PipelineConfig draw_config(FuzzedDataProvider& input) {
   config.block_bytes = input.PickValueInArray<std::size_t>({4096, 8192});
   config.engine_bytes = input.PickValueInArray<std::uint64_t>({1 << 20, 2 << 20, 8 << 20});
   config.resident_bytes = input.PickValueInArray<std::uint64_t>({0, 1 << 16, 1 << 18});
-  if (input.ConsumeBool()) config.texture_size = ImageSize{640, 480};
+  if (input.ConsumeBool()) config.texture_size = ImageSize{40, 30};
   return config;
 }
 

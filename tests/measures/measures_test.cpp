@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -226,7 +227,7 @@ TEST(MappedFractionTest, UnmappedFaceTakesItsShare) {
 TEST(DistortionTest, ConformalAndStretched) {
   Groups groups;
   groups.triangles = {three_four(4, 3), three_four(8, 3)};
-  const Json json = report_of("qcd", groups);
+  const Json json = report_of("distortion", groups);
   EXPECT_EQ(json["qcd_min"], 1);
   EXPECT_EQ(json["qcd_max"], 2);
   EXPECT_EQ(json["qcd_avg"], 1.5);
@@ -237,19 +238,28 @@ TEST(DistortionTest, ConformalAndStretched) {
 TEST(DistortionTest, AHundredAndMoreIsDiscarded) {
   Groups groups;
   groups.triangles = {three_four(4, 3), three_four(400, 3), three_four(4, 300), three_four(4, 297)};
-  const Json json = report_of("qcd", groups);
+  const Json json = report_of("distortion", groups);
   EXPECT_EQ(json["qcd_discardedArea"], 12);
   EXPECT_EQ(json["qcd_max"], 99);
 }
 
-TEST(DistortionTest, PercentilesAreTheRisingOnes) {
-  EXPECT_EQ(report_of("qcd", {})["qcd_perc50"], 1);
+TEST(DistortionTest, PercentilesAreTheRisingOnesAndTheInverseOfTheFalling) {
+  EXPECT_EQ(report_of("distortion", {})["qcd_perc50"], 1);
+  EXPECT_EQ(report_of("distortion", {})["conformality_perc50"], 0.5);
 }
 
-TEST(ConformalityTest, IsTheInverseWithoutACut) {
+TEST(DistortionTest, KeepsSamplesBelowAHundred) {
+  for (const auto& measure : all_measures()) {
+    if (measure->name() != "distortion") continue;
+    EXPECT_LT(measure->cutoff(), 100);
+    EXPECT_EQ(std::nextafter(measure->cutoff(), 200), 100);
+  }
+}
+
+TEST(DistortionTest, ConformalityIsTheInverseWithoutACut) {
   Groups groups;
   groups.triangles = {three_four(4, 3), three_four(8, 3), three_four(4, 3 * 1024)};
-  const Json json = report_of("conformality", groups);
+  const Json json = report_of("distortion", groups);
   EXPECT_EQ(json["conformality_min"], 1.0 / 1024);
   EXPECT_EQ(json["conformality_max"], 1);
 }
@@ -261,6 +271,90 @@ TEST(ScalingTest, AverageIsOneAndVarianceIsRelative) {
   const Json json = report_of("scaling", groups);
   EXPECT_EQ(json["sf_untrimmed_avg"], 1);
   EXPECT_EQ(json["sf_untrimmed_var"], 0.25);
+}
+
+/// A level of 10 x 10 texels, half of them covered.
+TextureLevel half_covered() {
+  TextureLevel level{SlotId{0}, 0, 10, 10, {}};
+  level.counts.covered = 50;
+  return level;
+}
+
+TEST(ScalingTest, CutsAtAHundredTimesTheCoveredTexelsByArea) {
+  // 100 / (2 faces of area 6) * (0.5 occupied * 100 texels)
+  Groups groups;
+  groups.triangles = {three_four(4, 3), three_four(12, 3)};
+  groups.levels = {half_covered()};
+  for (const auto& measure : all_measures()) {
+    if (measure->name() != "scaling") continue;
+    EXPECT_EQ(measure->cutoff(), std::numeric_limits<double>::infinity());
+    feed(*measure, groups);
+    EXPECT_DOUBLE_EQ(measure->cutoff(), 5000.0 / 12);
+  }
+}
+
+TEST(ScalingTest, WhatIsCutIsTakenBack) {
+  // Kept: ratios 1 and 3 on equal areas, in units of their mean of 2.
+  Groups groups;
+  groups.triangles = {three_four(4, 3), three_four(12, 3), three_four(4000, 3)};
+  MeshFacts facts = any_facts();
+  facts.distributions.at("scaling").largest_kept = 3;
+  for (const auto& measure : all_measures()) {
+    if (measure->name() != "scaling") continue;
+    feed(*measure, groups);
+    measure->cut(0, {1000, 6});
+    Report report;
+    measure->finish(facts, report);
+    EXPECT_EQ(report.at("sf_min"), 0.5);
+    EXPECT_EQ(report.at("sf_max"), 1.5);
+    EXPECT_EQ(report.at("sf_avg"), 1);
+    EXPECT_EQ(report.at("sf_var"), 0.25);
+    EXPECT_EQ(report.at("sf_discardedArea"), 6);
+    EXPECT_EQ(report.at("sf_perc50"), 0.5);
+    EXPECT_GT(report.at("sf_untrimmed_var").get<double>(), 1);
+  }
+}
+
+TEST(TexelOverlapTest, CountsLevelZeroOfUsedSlots) {
+  Groups groups;
+  TextureLevel unused{SlotId{1}, 0, 10, 10, {}};
+  TextureLevel second = half_covered();
+  second.level = 1;
+  groups.levels = {half_covered(), unused, second};
+  groups.levels[0].counts.overwritten = 7;
+  groups.levels[0].counts.overlaps_between = 3;
+  const Json json = report_of("texel_overlap", groups);
+  EXPECT_EQ(json["occupancy"], 0.5);
+  EXPECT_EQ(json["overlap_within_chart_texels"], 4);
+  EXPECT_EQ(json["overlap_between_charts_texels"], 3);
+}
+
+TEST(TexelOverlapTest, NothingIsCountedUnderTheUnitSlot) {
+  MeshFacts facts = any_facts();
+  facts.textures.unit_slot = true;
+  const Json json = report_of("texel_overlap", {}, facts);
+  EXPECT_TRUE(json["occupancy"].is_null());
+  EXPECT_TRUE(json["overlap_within_chart_texels"].is_null());
+}
+
+Chart chart_of(double area_uv, double width, double height) {
+  Chart chart{};
+  chart.area_uv = area_uv;
+  chart.width = width;
+  chart.height = height;
+  return chart;
+}
+
+TEST(ChartSizeTest, ThinChartsByNumberAndByArea) {
+  Groups groups;
+  groups.charts = {chart_of(30, 8, 8), chart_of(10, 7.9, 100), chart_of(60, 8, 9),
+                   chart_of(0, 0, 0)};
+  groups.charts.back().null = true;
+  const Json json = report_of("chart_area", groups);
+  EXPECT_EQ(json["thin_charts_fraction"], 1.0 / 3);
+  EXPECT_EQ(json["thin_charts_area_fraction"], 0.1);
+  EXPECT_EQ(json["chart_area_min"], 10);
+  EXPECT_DOUBLE_EQ(json["chart_area_avg"], 100.0 / 3);
 }
 
 TEST(ScalingTest, NothingMappedIsNull) {
@@ -362,7 +456,7 @@ TEST(MeasureSetTest, WorkersTogetherMakeTheReportOfOne) {
       sink.accept(std::span(groups.charts));
       std::vector<Sample> samples;
       for (std::size_t k = 0; k < set.distributions().size(); ++k) {
-        sink.sample(k, groups.triangles, samples);
+        sink.sample(k, std::span(groups.triangles), samples);
       }
     }
     const std::string report = set.finish(facts).to_json().dump();
@@ -373,7 +467,7 @@ TEST(MeasureSetTest, WorkersTogetherMakeTheReportOfOne) {
 
 TEST(MeasureSetTest, DistributionsAreTheSampledMeasuresByName) {
   EXPECT_EQ(MeasureSet(2).distributions(),
-            (std::vector<std::string>{"angle_min", "conformality", "qcd", "texel_density"}));
+            (std::vector<std::string>{"angle_min", "chart_area", "distortion", "scaling"}));
 }
 
 }  // namespace

@@ -20,9 +20,10 @@ struct Groups {
   std::vector<VertexStar> stars;
   std::vector<Component> components;
   std::vector<Chart> charts;
+  std::vector<TextureLevel> levels;
 };
 
-/// Hands groups over as a worker does: triangles to sample() too, if the measure wants them.
+/// Hands groups over as a worker does: to sample() too, if the measure wants them.
 inline void feed(AnyMeasure& measure, const Groups& groups) {
   measure.accept(std::span(groups.triangles));
   measure.accept(std::span(groups.raw_edges));
@@ -31,8 +32,11 @@ inline void feed(AnyMeasure& measure, const Groups& groups) {
   measure.accept(std::span(groups.stars));
   measure.accept(std::span(groups.components));
   measure.accept(std::span(groups.charts));
+  measure.accept(std::span(groups.levels));
+  if (!measure.sampled()) return;
   std::vector<Sample> samples;
-  if (measure.sampled()) measure.sample(0, groups.triangles, samples);
+  measure.sample(0, std::span(groups.triangles), samples);
+  measure.sample(0, std::span(groups.charts), samples);
 }
 
 /// A whole face with these corners, all its texels within the texture.
@@ -66,8 +70,8 @@ class RandomGroups {
       groups.seam_edges.push_back({number(), below(2) == 0});
       groups.stars.push_back({1 + below(9), below(3), below(5) == 0, below(3) != 0, below(2)});
       groups.components.push_back({1 + below(100), below(4) != 0});
-      groups.charts.push_back(
-          {static_cast<FaceId>(i), 1 + below(100), below(5) == 0, below(7) != 0, below(3)});
+      groups.charts.push_back(chart(static_cast<FaceId>(i)));
+      groups.levels.push_back(level());
     }
     return groups;
   }
@@ -77,6 +81,22 @@ class RandomGroups {
  private:
   double number() { return std::ldexp(1 + fraction(), static_cast<int>(below(60)) - 30); }
   double fraction() { return static_cast<double>(random_()) * 0x1p-32; }
+
+  Chart chart(FaceId first_face) {
+    Chart chart{first_face, 1 + below(100), below(5) == 0, below(7) != 0, below(3)};
+    chart.area_uv = number();
+    chart.width = 16 * fraction();
+    chart.height = 16 * fraction();
+    return chart;
+  }
+
+  TextureLevel level() {
+    TextureLevel level{SlotId{0}, static_cast<std::uint32_t>(below(3)), 64, 64, {}};
+    level.counts.covered = below(4096);
+    level.counts.overwritten = level.counts.covered / 2;
+    level.counts.overlaps_between = level.counts.overwritten / 2;
+    return level;
+  }
 
   Triangle triangle() {
     const double size = number(), texels = number();
@@ -123,7 +143,7 @@ inline MeshFacts any_facts() {
     Quantiles quantiles{};
     quantiles.rising.fill(1);
     quantiles.falling.fill(2);
-    facts.quantiles.emplace(measure->name(), quantiles);
+    facts.distributions.emplace(measure->name(), Distribution{quantiles, quantiles, 1});
   }
   return facts;
 }

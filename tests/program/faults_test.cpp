@@ -22,6 +22,7 @@
 
 #include "bench/site.hpp"
 #include "tests/support/child.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temp_dir.hpp"
 
@@ -35,20 +36,6 @@ constexpr uid_t kNobody = 65534;
 
 bool thorough() {
   return std::getenv("ATLASGAUGE_THOROUGH") != nullptr;
-}
-
-std::string content_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    names.push_back(entry.path().filename().string());
-  }
-  return names;
 }
 
 std::size_t lines_of(const std::string& text) {
@@ -490,24 +477,43 @@ TEST_F(FaultsTest, SignalsEndTheRunAtAnyMomentAndLeaveTheOldReport) {
 }
 
 TEST_F(FaultsTest, SignalWhileTheReportIsWrittenLeavesAWholeOne) {
+  const std::map<std::string, std::string> left = {
+      {"write@/reports/", kOld}, {"fsync", kOld}, {"linkat", wanted_}, {"rename", wanted_}};
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
-    for (const char* call : {"write@/reports/", "fsync", "linkat", "rename"}) {
+    for (const auto& [call, report] : left) {
       expect_end_by(signal, call, 1);
-      EXPECT_EQ(content_of(report_), wanted_);
+      EXPECT_EQ(content_of(report_), report);
     }
   }
 }
 
-TEST_F(FaultsTest, SignalWhileANamedReportIsWrittenLeavesNoOtherFile) {
-  for (const char* call : {"write@/reports/", "fsync", "rename"}) {
+TEST_F(FaultsTest, SignalWhileTheReportIsCopiedLeavesNoOtherFile) {
+  // First into a file that lost its name, then into the one that is renamed.
+  const std::map<std::string, std::string> left = {{"write@/reports/:1", kOld},
+                                                   {"write@/reports/:2", kOld},
+                                                   {"fsync:1", wanted_},
+                                                   {"rename:1", wanted_}};
+  for (const auto& [call, report] : left) {
     SCOPED_TRACE(call);
     renew_old_report();
     const ProgramResult result =
-        measure({.faults = "unnamed@reports:1+:EOPNOTSUPP " + std::string(call) + ":1:signal15"});
+        measure({.faults = call + ":signal15 unnamed@reports:1+:EOPNOTSUPP"});
     EXPECT_EQ(result.exit_code, 128 + SIGTERM);
-    EXPECT_EQ(content_of(report_), wanted_);
+    EXPECT_EQ(content_of(report_), report);
     expect_nothing_left();
   }
+}
+
+TEST_F(FaultsTest, IgnoredSignalWhileTheReportIsCopiedChangesNothing) {
+  const std::string command =
+      "trap '' HUP; exec " ATLASGAUGE_PROGRAM " " + model() + " -t 1024x1024 -q --json " + report_;
+  const ProgramResult result =
+      run_program("/bin/bash", {"-c", command},
+                  {std::string("LD_PRELOAD=") + ATLASGAUGE_FAULTY_IO,
+                   "FAULTY_IO=write@/reports/:2:signal1 unnamed@reports:1+:EOPNOTSUPP",
+                   "FAULTY_IO_COUNTS=" + file("counts"), "ASAN_OPTIONS=verify_asan_link_order=0"});
+  expect_right_report(result);
+  EXPECT_EQ(calls(), 2U);
 }
 
 // Without privileges. Root may write everywhere.

@@ -1,7 +1,8 @@
-#include "tests/support/oracle.hpp"
+#include "tests/support/oracle/oracle.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -12,7 +13,7 @@
 namespace atlasgauge {
 namespace {
 
-/// Runs seeds [begin, end) through both, with budgets and workers that vary with the seed.
+/// Runs seeds [begin, end) through both, with budgets, workers and tiles that vary with the seed.
 void compare_seeds(std::uint64_t begin, std::uint64_t end) {
   for (std::uint64_t seed = begin; seed < end; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -24,8 +25,11 @@ void compare_seeds(std::uint64_t begin, std::uint64_t end) {
     PipelineConfig config;
     config.workers = 1 + seed % 3;
     config.engine_bytes = seed % 2 == 0 ? 2 << 20 : 1 << 20;
+    config.tile_size = std::array{0, 1, 3, 8, 16}[seed % 5];
     config.probe = probe_of(model.images);
-    if (seed % 4 == 0) config.texture_size = ImageSize{640, 480};
+    if (const auto size = model.size_option) {
+      config.texture_size = ImageSize{size->first, size->second};
+    }
     const Outcome want = oracle_outcome(path, config);
     ASSERT_TRUE(want.report) << want.refusal;
     for (const std::string& text : contradictions(pipeline_outcome(path, config), want)) {

@@ -2,11 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "bench/site.hpp"
+#include "stream/raster/osmesa_module.hpp"
+#include "tests/support/module_folder.hpp"
+#include "tests/support/oracle_comparison.hpp"
 #include "tests/support/pipeline_run.hpp"
+#include "tests/support/random_mesh.hpp"
 #include "tests/support/temp_dir.hpp"
 
 namespace atlasgauge {
@@ -97,6 +107,166 @@ TEST(ReportLawTest, PeakReservedStaysUnderTheBudget) {
   config.workers = 2;
   EXPECT_LE(run_pipeline(make(dir, site), config).peak_reserved_bytes, config.engine_bytes);
 }
+
+/// A model to be rastered, with the images that it names.
+struct DrawnModel {
+  std::string obj, mtl;
+  ImageSizes images;
+  std::optional<ImageSize> size_option;
+};
+
+/// Triangles of their own on two textures, one above the other, half of them mirrored, some of them
+/// outside or larger than the texture.
+DrawnModel crowd(std::size_t faces) {
+  DrawnModel model;
+  model.mtl = "newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd b.png\n";
+  model.images = {{"a.png", {300, 500}}, {"b.png", {1024, 100}}};
+  std::mt19937 random(5);
+  const auto between = [&](int low, int high) {
+    return low + static_cast<int>(random() % static_cast<unsigned>(high - low));
+  };
+  model.obj = "mtllib crowd.mtl\n";
+  for (std::size_t i = 0; i < faces; ++i) {
+    const int reach = i % 50 == 0 ? 3000 : 100;
+    const int u = between(-100, 1100), v = between(-100, 1100);
+    for (int k = 0; k < 3; ++k) {
+      model.obj += "v " + std::to_string(i) + ' ' + std::to_string(k % 2) + ' ' +
+                   std::to_string(k / 2) + "\nvt " +
+                   std::to_string(0.001 * (u + between(-reach, reach))) + ' ' +
+                   std::to_string(0.001 * (v + between(-reach, reach))) + '\n';
+    }
+    model.obj += i % 3 == 0 ? "usemtl b\n" : "usemtl a\n";
+    model.obj += "f -3/-3 -2/-2 -1/-1\n";
+  }
+  return model;
+}
+
+DrawnModel random_drawn_model(std::uint64_t seed) {
+  oracle::RandomModel random = oracle::random_model(seed, {.mtl_name = "crowd.mtl"});
+  DrawnModel model{random.obj, random.mtl, random.images, {}};
+  if (random.size_option) {
+    model.size_option = ImageSize{random.size_option->first, random.size_option->second};
+  }
+  return model;
+}
+
+std::string write(const TempDir& dir, const DrawnModel& model) {
+  for (const auto& image : model.images) dir.write(image.first, "");
+  dir.write("crowd.mtl", model.mtl);
+  return dir.write("crowd.obj", model.obj);
+}
+
+/// A side of tiles, and budgets that they fit.
+struct TileKnobs {
+  std::int64_t tile_size;
+  std::vector<std::uint64_t> engine_bytes;
+};
+
+/// Parameters: the raster, and the number of workers.
+class RasterLawTest : public testing::TestWithParam<std::tuple<RasterChoice, std::size_t>> {
+ protected:
+  static void SetUpTestSuite() { show_modules(kOsmesaModuleFile); }
+
+  RasterChoice raster() const { return std::get<0>(GetParam()); }
+  std::size_t workers() const { return std::get<1>(GetParam()); }
+
+  PipelineConfig varied(PipelineConfig config) const {
+    config.raster = raster();
+    config.workers = workers();
+    return config;
+  }
+
+  void expect_same_bytes(const std::string& model, const PipelineConfig& plain,
+                         const std::vector<TileKnobs>& all_knobs) const {
+    const std::string want = text_of(run_pipeline(model, plain));
+    PipelineConfig config = varied(plain);
+    for (const TileKnobs& knobs : all_knobs) {
+      config.tile_size = knobs.tile_size;
+      for (const std::uint64_t engine_bytes : knobs.engine_bytes) {
+        SCOPED_TRACE("tiles of " + std::to_string(knobs.tile_size) + ", engine of " +
+                     std::to_string(engine_bytes >> 10) + " KiB");
+        config.engine_bytes = engine_bytes;
+        config.resident_bytes = engine_bytes / 8;
+        const PipelineResult result = run_pipeline(model, config);
+        EXPECT_EQ(text_of(result), want);
+        expect_drawn_as_told(result.raster);
+      }
+    }
+  }
+
+  /// OSMesa leaves what it cannot draw to the scalar raster.
+  void expect_drawn_as_told(const RasterWork& work) const {
+    if (raster() == RasterChoice::kOsmesa) return;
+    EXPECT_EQ(work.triangles.osmesa, 0U);
+  }
+
+  TempDir dir_;
+};
+
+TEST_P(RasterLawTest, BytesOfASiteDoNotDependOnTiles) {
+  SiteOptions site = small_site();
+  site.faces = 10'000;
+  site.texture_size_texels = 512;
+  expect_same_bytes(make(dir_, site), config_for(site),
+                    {{8, {2 * kMiB}},
+                     {16, {kMiB, 64 * kMiB}},
+                     {64, {kMiB, 64 * kMiB}},
+                     {512, {16 * kMiB}},
+                     {0, {kMiB, 64 * kMiB}}});
+}
+
+TEST_P(RasterLawTest, BytesOfACrowdDoNotDependOnTiles) {
+  const DrawnModel model = crowd(1000);
+  PipelineConfig config;
+  config.probe = probe_of(model.images);
+  expect_same_bytes(write(dir_, model), config,
+                    {{8, {2 * kMiB}},
+                     {16, {kMiB}},
+                     {64, {512 << 10, 64 * kMiB}},
+                     {512, {16 * kMiB}},
+                     {0, {kMiB}}});
+}
+
+TEST_P(RasterLawTest, BytesOfRandomModelsDoNotDependOnTiles) {
+  for (std::uint64_t seed = 1000; seed < 1006; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const DrawnModel model = random_drawn_model(seed);
+    PipelineConfig config;
+    config.probe = probe_of(model.images);
+    config.texture_size = model.size_option;
+    expect_same_bytes(write(dir_, model), config, {{8, {kMiB}}, {0, {kMiB}}});
+  }
+}
+
+TEST_P(RasterLawTest, TilesAreDrawnByTheRasterThatWasNamed) {
+  SiteOptions site = small_site();
+  site.faces = 10'000;
+  site.texture_size_texels = 1024;
+  PipelineConfig config = varied(config_for(site));
+  config.tile_size = 128;
+  const PipelineResult result = run_pipeline(make(dir_, site), config);
+  EXPECT_EQ(result.raster.tile_size, 128);
+  EXPECT_GT(result.raster.tiles, 64U);  // of the largest level, and of others
+  const RasterTally& drawn = result.raster.triangles;
+  const bool is_osmesa = raster() == RasterChoice::kOsmesa;
+  EXPECT_GE(is_osmesa ? drawn.osmesa : drawn.scalar, result.report.at("fn").get<std::uint64_t>());
+  EXPECT_EQ(is_osmesa ? drawn.scalar : drawn.osmesa, 0U);
+  const auto stage = std::ranges::find(result.stages, "raster", &StageCost::name);
+  ASSERT_NE(stage, result.stages.end());
+  EXPECT_GE(stage->workers_busy, std::min<std::size_t>(2, workers()));
+}
+
+std::string name_of_raster(
+    const testing::TestParamInfo<std::tuple<RasterChoice, std::size_t>>& info) {
+  const auto [raster, workers] = info.param;
+  return (raster == RasterChoice::kOsmesa ? "Osmesa" : "Scalar") + std::to_string(workers);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RasterLawTest,
+                         testing::Combine(testing::Values(RasterChoice::kScalar,
+                                                          RasterChoice::kOsmesa),
+                                          testing::Values(1, 2, 3)),
+                         name_of_raster);
 
 }  // namespace
 }  // namespace atlasgauge

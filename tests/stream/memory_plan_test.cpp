@@ -7,6 +7,7 @@
 #include "io/error.hpp"
 #include "io/ids.hpp"
 #include "stream/engine/labels.hpp"
+#include "stream/raster/osmesa_raster.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -15,6 +16,11 @@ constexpr std::uint64_t kMiB = 1 << 20;
 
 MemoryWishes limit_of(std::uint64_t bytes) {
   return {.limit_bytes = bytes, .engine_bytes = {}, .block_bytes = {}, .threads = 0};
+}
+MemoryWishes osmesa_in(std::uint64_t bytes) {
+  MemoryWishes wishes = limit_of(bytes);
+  wishes.osmesa = true;
+  return wishes;
 }
 MemoryWishes engine_of(std::uint64_t bytes) {
   return {.limit_bytes = 512 * kMiB, .engine_bytes = bytes, .block_bytes = {}, .threads = 0};
@@ -111,6 +117,32 @@ TEST(MemoryPlanTest, TooManyThreadsAreRefusedWithALimitThatWouldDo) {
   EXPECT_NE(text.find("416.0 MiB"), std::string::npos) << text;
   wishes.limit_bytes = 416 * kMiB;
   EXPECT_NO_THROW(plan_memory(wishes, 2));
+}
+
+TEST(MemoryPlanTest, OsmesaHasAFloorOfItsOwn) {
+  EXPECT_NO_THROW(plan_memory(osmesa_in(448 * kMiB), 1));
+  const std::string text = refusal_of(osmesa_in(448 * kMiB - 1), 1, ErrorKind::kResource);
+  EXPECT_NE(text.find("at least 448.0 MiB"), std::string::npos) << text;
+  EXPECT_NO_THROW(plan_memory(limit_of(448 * kMiB - 1), 1)) << "of no concern to the scalar raster";
+}
+
+TEST(MemoryPlanTest, OsmesaHasFewerThreadsUnlessTheyAreAskedFor) {
+  const std::size_t scalar = plan_memory(limit_of(1024 * kMiB), 64).workers;
+  const std::size_t osmesa = plan_memory(osmesa_in(1024 * kMiB), 64).workers;
+  EXPECT_EQ(scalar, 64U);
+  EXPECT_EQ(osmesa, 11U);  // (1024 - 152 - 88) / (8 + 2 + 48 + 12 * 1026 * 1026 / 2^20)
+  MemoryWishes wishes = osmesa_in(1024 * kMiB);
+  wishes.threads = osmesa + 1;
+  EXPECT_EQ(plan_memory(wishes, 64).workers, osmesa + 1);
+}
+
+TEST(MemoryPlanTest, OsmesaTakesItsShareFromTheEngine) {
+  MemoryWishes wishes = osmesa_in(512 * kMiB);
+  wishes.threads = 2;
+  const std::uint64_t rasters = 2 * osmesa_raster_bytes(kUsualOsmesaTile, kUsualOsmesaTile);
+  const std::uint64_t osmesa = plan_memory(wishes, 2).engine_bytes;
+  wishes.osmesa = false;
+  EXPECT_EQ(osmesa + kOsmesaLoadedBytes + rasters, plan_memory(wishes, 2).engine_bytes);
 }
 
 TEST(MemoryPlanTest, OriginSaysWhatSetTheLimit) {

@@ -1,12 +1,30 @@
 #include "tests/support/pipeline_run.hpp"
 
 #include <filesystem>
+#include <memory>
 
 #include "io/error.hpp"
 #include "measures/base/measure_set.hpp"
 #include "stream/pipeline.hpp"
+#include "stream/raster/osmesa_raster.hpp"
+#include "stream/raster/scalar_raster.hpp"
+#include "tests/support/both_rasters.hpp"
 
 namespace atlasgauge {
+namespace {
+
+RasterPlan raster_plan(const PipelineConfig& config) {
+  RasterPlan plan;
+  plan.make = [] { return std::make_unique<ScalarRaster>(); };
+  plan.tile_size = config.tile_size;
+  if (config.both_rasters) plan.make = [] { return std::make_unique<BothRasters>(); };
+  if (config.both_rasters || config.raster == RasterChoice::kScalar) return plan;
+  plan.make = make_osmesa_raster;
+  plan.largest_tile = kUsualOsmesaTile;
+  return plan;
+}
+
+}  // namespace
 
 PipelineResult run_pipeline(const std::string& model, const PipelineConfig& config) {
   MemoryBudget budget(config.engine_bytes);
@@ -24,8 +42,10 @@ PipelineResult run_pipeline(const std::string& model, const PipelineConfig& conf
     return resolve_textures(model, obj.mtllib_lines, obj.material_names, config.texture_size, probe,
                             warnings);
   };
-  const MeshFacts facts = stream_model(engine, model, warnings, resolve, measures);
-  return {measures.finish(facts).to_json(), log.stages(), budget.peak_bytes()};
+  StreamOptions options;
+  options.raster = raster_plan(config);
+  const MeshFacts facts = stream_model(engine, model, options, warnings, resolve, measures);
+  return {measures.finish(facts).to_json(), log.stages(), facts.raster, budget.peak_bytes()};
 }
 
 }  // namespace atlasgauge

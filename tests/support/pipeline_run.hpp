@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "io/command_line.hpp"
 #include "io/texture/texture_slots.hpp"
 #include "measures/base/report.hpp"
 #include "stream/engine/stage_log.hpp"
+#include "stream/raster/atlas_raster.hpp"
 
 namespace atlasgauge {
 
@@ -18,6 +20,9 @@ struct PipelineConfig {
   std::uint64_t resident_bytes = 0;
   std::size_t block_bytes = 4096;
   std::size_t workers = 1;
+  RasterChoice raster = RasterChoice::kScalar;  ///< OSMesa: after show_modules()
+  bool both_rasters = false;                    ///< compared texel by texel; after show_modules()
+  std::int64_t tile_size = 0;                   ///< 0: as the memory allows
   std::optional<ImageSize> texture_size;
   ImageProbe probe;  ///< none: no image can be read
 };
@@ -25,6 +30,7 @@ struct PipelineConfig {
 struct PipelineResult {
   Json report;
   std::vector<StageCost> stages;
+  RasterWork raster;
   std::uint64_t peak_reserved_bytes = 0;
 };
 

@@ -257,6 +257,44 @@ Patch make_patch(Dice& dice, bool manifold) {
   }
 }
 
+// ---- Textures ----
+
+using Size = std::pair<uint32_t, uint32_t>;
+
+// Sizes are small, so that a naive raster of all of them is quick. Most textures of a model have
+// the side that its UV lattices fit.
+struct Textures {
+  uint32_t common_side;
+  std::map<std::string, Size> images;  // by the names that materials may give; absent: missing
+  std::vector<std::string> names;
+  std::optional<Size> size_option;
+};
+
+uint32_t any_side(Dice& dice) {
+  return dice.pick<uint32_t>({1, 2, 3, 4, 5, 7, 8, 13, 16, 17, 31, 32, 33, 40});
+}
+
+uint32_t any_side_of(Dice& dice, uint32_t common_side) {
+  return dice.chance(0.6) ? common_side : any_side(dice);
+}
+
+Size any_size(Dice& dice, uint32_t common_side) {
+  if (dice.chance(0.02)) return {100 + any_side(dice), 3 * any_side(dice)};
+  return {any_side_of(dice, common_side), any_side_of(dice, common_side)};
+}
+
+Textures make_textures(Dice& dice) {
+  static const std::vector<std::string> all = {"a.png", "b two.png", "c.png", "d.png"};
+  Textures textures;
+  textures.common_side = any_side(dice);
+  textures.names.assign(all.begin(), all.begin() + dice.pick<int>({0, 1, 1, 2, 3, 4}));
+  for (const std::string& name : textures.names) {
+    if (dice.chance(0.8)) textures.images[name] = any_size(dice, textures.common_side);
+  }
+  if (dice.chance(0.5)) textures.size_option = any_size(dice, textures.common_side);
+  return textures;
+}
+
 // ---- Charts ----
 
 void map_uvs(Patch& patch, const std::function<UvPoint(const PatchCorner&)>& map) {
@@ -302,6 +340,50 @@ void move_uvs(const UvPoint& offset, Patch& patch) {
   });
 }
 
+void mirror_uvs(Dice& dice, Patch& patch) {
+  const double across = dice.pick<double>({0, 0.5, 1});
+  map_uvs(patch, [&](const PatchCorner& corner) {
+    return UvPoint{across - corner.uv[0], corner.uv[1]};
+  });
+}
+
+// Onto texel borders and centres, onto the units that a raster snaps to, or between those.
+void put_on_lattice(Dice& dice, uint32_t side, Patch& patch) {
+  const double steps = dice.pick<double>({1, 2, 256, 512}) * side;
+  map_uvs(patch, [&](const PatchCorner& corner) {
+    return UvPoint{std::round(corner.uv[0] * steps) / steps,
+                   std::round(corner.uv[1] * steps) / steps};
+  });
+}
+
+void shrink_uvs(Dice& dice, Patch& patch) {
+  const double factor = dice.pick<double>({0x1p-12, 0x1p-8, 0x1p-5, 0x1p-3});
+  scale_uvs(factor, factor * dice.pick<double>({1, 1, 0.125, 8}), patch);
+}
+
+UvPoint middle_of(const Patch& patch) {
+  UvPoint low = patch.faces[0][0].uv, high = low;
+  for (const PatchFace& face : patch.faces) {
+    for (const PatchCorner& corner : face) {
+      for (size_t i = 0; i < 2; ++i) {
+        low[i] = std::min(low[i], corner.uv[i]);
+        high[i] = std::max(high[i], corner.uv[i]);
+      }
+    }
+  }
+  return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2};
+}
+
+// To far larger than the texture, about its middle: else the whole texture would be shifted until
+// all the rest lies beside it.
+void enlarge_uvs(Dice& dice, Patch& patch) {
+  const UvPoint middle = middle_of(patch);
+  const double factor = dice.pick<double>({4, 16, 100, 3000});
+  move_uvs({-middle[0], -middle[1]}, patch);
+  scale_uvs(factor, factor * dice.pick<double>({1, 1, 0.125, 8}), patch);
+  move_uvs({0.5, 0.5}, patch);
+}
+
 // Folded along a line, so that halves may cancel each other.
 void close_uvs(Patch& patch) {
   map_uvs(patch, [](const PatchCorner& corner) {
@@ -309,18 +391,26 @@ void close_uvs(Patch& patch) {
   });
 }
 
-void change_chart(Dice& dice, double defect_chance, Patch& patch) {
-  move_uvs(any_offset(dice, 0, 8, 16), patch);
+struct ChartStyle {
+  bool large;  // some charts are far larger than the texture
+  bool wild;   // charts lie anywhere
+  uint32_t texture_side;
+};
+
+void change_chart(Dice& dice, const ChartStyle& style, Patch& patch) {
+  if (dice.chance(0.2)) shrink_uvs(dice, patch);
+  if (dice.chance(0.8)) move_uvs(any_offset(dice, 0, 8, 16), patch);
   if (dice.chance(0.15)) scatter_uvs(dice, patch);
   if (dice.chance(0.15)) tear_uvs(dice, patch);
   if (dice.chance(0.1)) close_uvs(patch);
-  if (dice.chance(0.2)) scale_uvs(-1, 1, patch);
+  if (dice.chance(0.2)) mirror_uvs(dice, patch);
   if (dice.chance(0.2)) scale_uvs(dice.pick<double>({0.25, 0.5, 2, 3}), 1, patch);
   if (dice.chance(0.1)) scale_uvs(1, 0, patch);
   if (dice.chance(0.05)) scale_uvs(0, 0, patch);
-  if (!dice.chance(defect_chance)) return;
-  if (dice.chance(0.5)) move_uvs(any_offset(dice, -3, 3, 1), patch);
-  if (dice.chance(0.1)) scale_uvs(dice.pick<double>({0x1p20, 0x1p33}), 1, patch);
+  if (style.large && dice.chance(0.3)) enlarge_uvs(dice, patch);
+  if (style.wild && dice.chance(0.3)) move_uvs(any_offset(dice, -3, 3, 1), patch);
+  if (style.wild && dice.chance(0.1)) scale_uvs(dice.pick<double>({0x1p20, 0x1p33}), 1, patch);
+  if (dice.chance(0.5)) put_on_lattice(dice, style.texture_side, patch);
 }
 
 // ---- From patches to a draft ----
@@ -406,13 +496,14 @@ void jitter_uvs(Dice& dice, Patch& patch) {
   });
 }
 
-Draft make_draft(Dice& dice, bool calm, const RandomMeshOptions& options) {
+Draft make_draft(Dice& dice, bool calm, uint32_t texture_side, const RandomMeshOptions& options) {
   const Style style = make_style(dice, calm, options.defect_chance);
+  const ChartStyle charts{dice.chance(0.3), dice.chance(options.defect_chance), texture_side};
   const auto target = static_cast<size_t>(dice.between(options.min_faces, options.max_faces));
   Draft draft;
   while (triangle_count(draft) < target) {
     Patch patch = make_patch(dice, style.calm);
-    change_chart(dice, options.defect_chance, patch);
+    change_chart(dice, charts, patch);
     if (!style.lattice && dice.chance(0.3)) jitter_uvs(dice, patch);
     add_patch(dice, style, patch, draft);
   }
@@ -542,7 +633,6 @@ void add_defects(Dice& dice, double chance, Draft& draft) {
 struct MaterialText {
   std::vector<std::string> names;  // by material of the draft; one may be defined nowhere
   std::string mtl;
-  std::map<std::string, std::pair<uint32_t, uint32_t>> images;
 };
 
 std::string spelled_image(Dice& dice, const std::string& name) {
@@ -559,16 +649,8 @@ std::string material_statement(Dice& dice, const std::string& name,
   return text + "  map_Kd " + spelled_image(dice, dice.pick(images)) + "\n";
 }
 
-MaterialText make_materials(Dice& dice) {
-  static const std::vector<std::string> image_names = {"a.png", "b two.png", "c.png", "d.png"};
-  static const std::vector<uint32_t> sides = {1, 2, 3, 8, 16, 33, 64};
-  std::vector<std::string> images(image_names.begin(),
-                                  image_names.begin() + dice.pick<int>({0, 1, 1, 2, 3, 4}));
+MaterialText make_materials(Dice& dice, const std::vector<std::string>& images) {
   MaterialText text;
-  for (const std::string& image : images) {
-    if (!dice.chance(0.8)) continue;
-    text.images[image] = {dice.pick(sides), dice.pick(sides)};
-  }
   for (const std::string name : {"first", "second one", "third", "fourth"}) {
     text.names.push_back(name);
     if (dice.chance(0.9)) text.mtl += material_statement(dice, name, images);
@@ -735,12 +817,14 @@ RandomModel random_model(uint64_t seed, const RandomMeshOptions& requested) {
   RandomMeshOptions options = requested;
   const bool calm = dice.chance(0.3);
   if (calm) options.defect_chance = 0;
-  Draft draft = make_draft(dice, calm, options);
+  const Textures textures = make_textures(dice);
+  Draft draft = make_draft(dice, calm, textures.common_side, options);
   add_defects(dice, options.defect_chance, draft);
   if (dice.chance(0.4)) dice.shuffle(draft.polygons);
-  const MaterialText materials = make_materials(dice);
+  const MaterialText materials = make_materials(dice, textures.names);
   Writer writer(dice, draft, materials, options.defect_chance);
-  return {writer.write(library_line(dice, options.mtl_name)), materials.mtl, materials.images};
+  return {writer.write(library_line(dice, options.mtl_name)), materials.mtl, textures.images,
+          textures.size_option};
 }
 
 std::string random_obj(uint64_t seed, const RandomMeshOptions& options) {

@@ -2,11 +2,14 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
 // Small random models with every defect that the specification speaks of, mixed by the seed. Most
-// have coordinates on a coarse dyadic lattice, where coincidences and exact equalities abound.
+// have coordinates on a coarse dyadic lattice, where coincidences and exact equalities abound; many
+// have UVs on the texel borders, texel centres or raster units of their textures, whose sizes are
+// small and often odd.
 namespace atlasgauge::oracle {
 
 struct RandomMeshOptions {
@@ -23,6 +26,8 @@ struct RandomModel {
   // The images beside the MTL and their sizes. One that the MTL names but that is absent here is
   // missing.
   std::map<std::string, std::pair<uint32_t, uint32_t>> images;
+  // To be measured with that size for what has none.
+  std::optional<std::pair<uint32_t, uint32_t>> size_option;
 };
 
 // The same seed gives the same model everywhere.

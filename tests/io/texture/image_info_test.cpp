@@ -2,12 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 
 #include "io/error.hpp"
 #include "io/texture/image_module.hpp"
+#include "tests/support/module_folder.hpp"
 #include "tests/support/temp_dir.hpp"
 
 namespace atlasgauge {
@@ -18,13 +17,7 @@ const std::string kGreyImage = "P5\n3 2\n255\nabcdef";
 
 class ImageInfoTest : public ::testing::Test {
  protected:
-  /// The module lies beside this program or in the folder above, where the main program is.
-  void SetUp() override {
-    const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-    const bool is_beside = std::filesystem::exists(folder / kImageModuleFile);
-    const auto module_folder = is_beside ? folder : folder.parent_path();
-    ASSERT_EQ(::setenv("ATLASGAUGE_MODULE_DIR", module_folder.c_str(), 1), 0);
-  }
+  void SetUp() override { show_modules(kImageModuleFile); }
 
   std::string error_of(const std::string& path) {
     try {

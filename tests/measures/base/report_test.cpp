@@ -107,7 +107,7 @@ TEST(ReportTest, UnknownKeysComeLastByName) {
 
 TEST(ReportTest, EveryTextureHasItsKeyInNumericOrder) {
   Report report;
-  report.set("ntex", std::uint64_t{12});
+  report.set_textures(12, [] { return [] { return Json::array(); }; });
   const std::vector<std::string> keys = keys_of(report);
   EXPECT_EQ(place_of(keys, "texture_2") + 8, place_of(keys, "texture_10"));
   EXPECT_EQ(place_of(keys, "textures") + 1, place_of(keys, "texture_0"));
@@ -117,12 +117,26 @@ TEST(ReportTest, EveryTextureHasItsKeyInNumericOrder) {
 TEST(ReportTest, KeysOfVeryManyTexturesComeOnceEach) {
   constexpr std::uint64_t kTextures = 100'000;
   Report report;
-  report.set("ntex", kTextures);
-  for (std::uint64_t i = 0; i < kTextures; ++i) {
-    report.set("texture_" + std::to_string(i), Json::array());
-  }
+  report.set_textures(kTextures, [] { return [] { return Json::array(); }; });
   const std::size_t others = Report().to_json().size();
   EXPECT_EQ(report.to_json().size(), others + kTextures);
+}
+
+TEST(ReportTest, WritesWhatItsJsonSaysWithALineForEveryLevel) {
+  Report report;
+  report.set("mesh", Json("line\nend"));
+  report.set("textures", Json::array({"a.png", "b.png"}));
+  report.set_textures(2, [] {
+    return [i = 0]() mutable {
+      return i++ == 0 ? Json::array({{{"rw", 2}}, {{"rw", 1}}}) : Json::array();
+    };
+  });
+  std::string text;
+  report.write([&](std::string_view piece) { text += piece; });
+  EXPECT_EQ(Json::parse(text), report.to_json());
+  EXPECT_NE(text.find(" \"texture_0\": [\n  {\"rw\":2},\n  {\"rw\":1}\n ],\n \"texture_1\": [],\n"),
+            std::string::npos)
+      << text;
 }
 
 TEST(ReportTest, SettingAgainReplaces) {

@@ -73,7 +73,7 @@ Quantiles select(TestEngine& engine, const Samples& samples) {
     for (std::size_t i = 0; i < samples.size(); ++i) writers[i % writers.size()].push(samples[i]);
     for (auto& writer : writers) writer.flush();
   }
-  return store.select(engine);
+  return store.finish().select(engine);
 }
 
 void expect_same(const std::array<double, kCount>& found,

@@ -58,7 +58,7 @@ void select_from(double (*value)(std::uint32_t)) {
   SampleStore::Writer writer(store);
   for (std::uint32_t i = 0; i < 1000000; ++i) writer.push({value(i), 1});
   writer.flush();
-  exit_by_growth(engine, [&] { store.select(engine); });
+  exit_by_growth(engine, [&] { store.finish().select(engine); });
 }
 
 TEST(ResidentMemoryTest, QuantilesOfDistinctValues) {

@@ -51,6 +51,33 @@ void turn_over(FaceRecord& face) {
   std::swap(face.t[0], face.t[1]);
 }
 
+/// A chart of a face with two small ones folded over it, and a face far away with an area in UV
+/// 10^30 times larger.
+SmallMesh folds_and_giant() {
+  SmallMesh mesh;
+  for (const Texel& at : {Texel{0, 0}, {1, 0}, {0, 1}, {0.5, -1}, {1, 1}}) mesh.vertex(at.x, at.y);
+  mesh.texcoords = {{0, 0}, {1, 0}, {0, 1}, {0.3F, 0.05F}, {0.45F, 0.45F}};
+  mesh.face({0, 1, 2});
+  mesh.face({1, 0, 3});
+  mesh.face({2, 1, 4});
+  const std::uint32_t v = mesh.vertex(10, 0);
+  mesh.vertex(11, 0);
+  mesh.vertex(10, 1);
+  const std::uint32_t t = mesh.uv(0, 0);
+  mesh.uv(1e15F, 0);
+  mesh.uv(0, 1e15F);
+  mesh.face({v, v + 1, v + 2}, {t, t + 1, t + 2});
+  return mesh;
+}
+
+// In units of the largest face the chart's areas would be 0, and the fewer of its signs the folds.
+TEST(ChartsTest, AGiantElsewhereDoesNotHideFolds) {
+  const Atlas atlas = atlas_of(folds_and_giant());
+  ASSERT_EQ(atlas.charts.size(), 2U);
+  EXPECT_EQ(atlas.charts[0].folds, 2U);
+  EXPECT_NEAR(atlas.charts[0].area_uv, 0.5 + 0.025 + 0.05, 1e-6);
+}
+
 TEST(ChartsTest, OneChartOfTwoFaces) {
   const Atlas atlas = atlas_of(grid_mesh(2, 2));
   ASSERT_EQ(atlas.charts.size(), 1U);

@@ -28,6 +28,7 @@ class GroupCollector : public GroupSinks, private GroupSink {
  public:
   GroupSink& of_worker(std::size_t) override { return *this; }
   std::vector<std::string> distributions() const override { return {}; }
+  double cutoff(std::size_t) const override { return 0; }
 
   std::vector<Triangle> triangles;
   std::vector<RawEdge> raw_edges;
@@ -36,6 +37,7 @@ class GroupCollector : public GroupSinks, private GroupSink {
   std::vector<VertexStar> stars;
   std::vector<Component> components;
   std::vector<Chart> charts;
+  std::vector<TextureLevel> levels;
 
  private:
   void accept(std::span<const Triangle> groups) override { keep(groups, triangles); }
@@ -45,7 +47,10 @@ class GroupCollector : public GroupSinks, private GroupSink {
   void accept(std::span<const VertexStar> groups) override { keep(groups, stars); }
   void accept(std::span<const Component> groups) override { keep(groups, components); }
   void accept(std::span<const Chart> groups) override { keep(groups, charts); }
+  void accept(std::span<const TextureLevel> groups) override { keep(groups, levels); }
   void sample(std::size_t, std::span<const Triangle>, std::vector<Sample>&) override {}
+  void sample(std::size_t, std::span<const Chart>, std::vector<Sample>&) override {}
+  void cut(std::size_t, const Sample&) override {}
 
   template <class Group>
   void keep(std::span<const Group> groups, std::vector<Group>& list) {
@@ -75,7 +80,7 @@ class Stages {
     for (std::size_t i = 0; i < all.size(); ++i) {
       table->add(i % engine_.workers.count(), {&all[i], 1}, frames);
     }
-    edges = table->group(frames, groups);
+    edges = table->group(frames, true, groups);
   }
 
   std::uint64_t run_stars() {
@@ -94,10 +99,15 @@ class Stages {
 
   Spill<FaceId> run_charts() {
     FaceLabels labels(engine_, std::move(edges.uv_links), facts.size(), edges.uv_manifold);
-    Spill<FaceId> null_faces = group_charts(engine_, labels, facts, largest_area_uv, groups);
+    ChartParts parts{labels, facts, faces, std::move(edges.borders)};
+    std::vector<std::unique_ptr<SampleStore>> no_samples;
+    ChartResults results =
+        group_charts(engine_, std::move(parts), frames, true, groups, no_samples);
+    kept_charts = records_of(results.charts);
+    chart_labels = std::move(labels.by_all_edges());
     std::sort(groups.charts.begin(), groups.charts.end(),
               [](const Chart& a, const Chart& b) { return raw(a.first_face) < raw(b.first_face); });
-    return null_faces;
+    return std::move(results.null_faces);
   }
 
   void run_seams(Spill<FaceId> null_faces) {
@@ -113,7 +123,9 @@ class Stages {
   SlotFrames frames;
   std::vector<Triangle> triangles;  ///< in face order
   Spill<FaceFacts> facts;
-  double largest_area_uv = 0;
+  Spill<AtlasFace> faces;
+  std::vector<Chart> kept_charts;
+  Spill<Label> chart_labels;
   GroupCollector groups;
   EdgeResults edges;
 
@@ -122,6 +134,7 @@ class Stages {
     StageLog::Stage stage(engine_.log, "triangles");
     std::vector<std::vector<Triangle>> batches(engine_.workers.count());
     SpillWriter<FaceFacts> writer(engine_.scratch);
+    SpillWriter<AtlasFace> face_writer(engine_.scratch);
     TriangleVisitor visitor;
     visitor.transform = [&](std::size_t worker, std::span<const Triangle> some) {
       batches[worker].assign(some.begin(), some.end());
@@ -130,12 +143,13 @@ class Stages {
       for (const Triangle& triangle : batches[worker]) {
         triangles.push_back(triangle);
         writer.push(FaceFacts(triangle));
-        largest_area_uv = std::max(largest_area_uv, std::abs(triangle.area_uv));
+        face_writer.push(AtlasFace(triangle));
       }
     };
     visit_triangles(engine_, mesh, weld, slots, frames, engine_.budget.free_bytes() / 2, stage,
                     visitor);
     facts = writer.finish();
+    faces = face_writer.finish();
   }
 };
 

@@ -1,0 +1,17 @@
+#pragma once
+
+namespace atlasgauge {
+
+/// A shared object of this program that is loaded when first needed, because the libraries it
+/// brings along are large.
+struct Module {
+  const char* file;     ///< name without a folder
+  const char* purpose;  ///< as in "reads images"
+  const char* remedy;   ///< what to do where it cannot be loaded
+};
+
+/// What `module` exports under the name `symbol`. The module is looked for beside the program and
+/// where it is installed, and stays loaded until the program ends. Throws Error(kInternal).
+void* module_symbol(const Module& module, const char* symbol);
+
+}  // namespace atlasgauge
