@@ -20,6 +20,8 @@ struct Options {
   std::optional<std::string> json_path;    ///< "-" is stdout
   std::optional<std::string> charts_path;  ///< of a known table format
   std::optional<std::string> maps_dir;
+  std::optional<std::string> seams_path;  ///< of a known table format, or PLY
+  bool texmetro_seams = false;
   std::optional<ImageSize> texture_size;
   RasterChoice raster = RasterChoice::kScalar;
   std::optional<std::uint64_t> memory_bytes;

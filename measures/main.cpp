@@ -19,7 +19,7 @@
 #include "io/file/output_file.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/progress_bar.hpp"
-#include "io/texture/image_info.hpp"
+#include "io/texture/image_reader.hpp"
 #include "io/texture/texture_slots.hpp"
 #include "io/warnings.hpp"
 #include "measures/base/measure_set.hpp"
@@ -121,7 +121,7 @@ void measure(const Options& options) {
   MeasureSet measures(workers.count());
   const auto resolve = [&](const ObjSummary& obj) {
     return resolve_textures(options.model, obj.mtllib_lines, obj.material_names,
-                            options.texture_size, read_image_size, warnings);
+                            options.texture_size, read_image_header, warnings);
   };
   StreamOptions wanted;
   wanted.raster = raster_for(options);

@@ -86,7 +86,7 @@ bool reads_images(const std::string& path, const std::vector<std::string>& mtlli
   bool read = false;
   const ImageProbe probe = [&](const std::string&) {
     read = true;
-    return ImageSize{1, 1};
+    return ImageHeader{.size = {1, 1}};
   };
   Warnings unheard([](const std::string&) {});
   resolve_textures(path, mtllib_lines, {}, std::nullopt, probe, unheard);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,10 +26,47 @@ struct UvEdge {
   double length_texels;  ///< of its first face; 0 where that has no UV triangle
 };
 
-/// A seam edge, both of its faces in charts of nonzero UV area.
+/// One side of a seam edge: its segment in the atlas, from the first vertex of the edge to the
+/// second.
+struct SeamSide {
+  SlotId slot = kNone<SlotId>;
+  TexCoord t[2]{};  ///< as in the file, or kNoTexCoord
+};
+
+/// A seam edge, both of its faces in charts of nonzero UV area. Its sides are in the order of slot
+/// and UVs, so that nothing of it depends on the order of faces.
 struct SeamEdge {
-  double length_3d;  ///< model units
-  bool sampled;      ///< both sides have a UV triangle within reach and a readable image
+  VertexId v[2]{};  ///< welded, the lower first
+  SeamSide sides[2];
+  double length_3d = 0;       ///< model units
+  bool sampled = false;       ///< both sides have a UV triangle within reach and a decoded image
+  std::uint64_t samples = 0;  ///< n; 0 where it is not sampled, or too short
+  double discrepancy = std::numeric_limits<double>::quiet_NaN();  ///< D(e); NaN where n = 0
+  /// The same as TexMetro has it; NaN unless asked for.
+  double texmetro_discrepancy = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// A seam edge in space.
+struct LocatedSeam {
+  SeamEdge edge;
+  Position p[2];
+};
+
+/// All seam edges, in the order of their vertices, one after the other.
+class SeamRows {
+ public:
+  virtual ~SeamRows() = default;
+  virtual std::uint64_t count() const = 0;
+  /// False at the end.
+  virtual bool read(LocatedSeam& seam) = 0;
+};
+
+/// The seam edges with samples that have a side on a slot.
+struct TextureSeams {
+  SlotId slot;
+  std::uint64_t edges;
+  double length_3d;    ///< of all, model units
+  double discrepancy;  ///< mean of D(e) by length
 };
 
 /// The corners at one vertex, at the raw level.

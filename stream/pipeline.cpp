@@ -181,7 +181,7 @@ MeshFacts stream_model(const Engine& engine, const std::string& path, const Stre
   const SlotFrames frames = frame_slots(engine, mesh, weld, facts.textures);
   TriangleResults triangles =
       stream_triangles(engine, options, mesh, weld, facts.textures, frames, sinks);
-  mesh.positions.clear();
+  facts.vertices = std::move(mesh.positions);
   mesh.texcoords.clear();
   weld.welded.clear();
 

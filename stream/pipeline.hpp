@@ -6,6 +6,7 @@
 #include <string>
 
 #include "io/obj/obj_reader.hpp"
+#include "io/texture/image_reader.hpp"
 #include "io/texture/texture_slots.hpp"
 #include "io/warnings.hpp"
 #include "stream/engine/engine.hpp"
@@ -31,7 +32,9 @@ struct MeshFacts {
   /// By slot and level, for all slots with a size; empty under the 1x1 slot.
   Spill<TextureLevel> texture_levels;
   RasterWork raster;
-  AtlasStore atlas;  ///< empty unless distortions were asked for
+  AtlasStore atlas;                   ///< empty unless distortions were asked for
+  Spill<Position> vertices;           ///< by VertexId
+  Spill<TextureSeams> texture_seams;  ///< by slot; of those that have any
 };
 
 /// Finds the slots of a model from what its OBJ says.
@@ -44,6 +47,9 @@ struct StreamOptions {
   /// For maps: the quasi-conformal distortion of a face, 0 where it has none. If not empty, the
   /// facts keep what maps are drawn from.
   std::function<double(const Triangle&)> distortion_of;
+  OpenImage open_image = atlasgauge::open_image;
+  bool texmetro_seams = false;              ///< sample seams as TexMetro does, too
+  std::function<void(SeamRows&)> on_seams;  ///< all seam edges; may be empty
 };
 
 /// The flow of DESIGN section 3: streams a model through all stages, each of which hands its groups

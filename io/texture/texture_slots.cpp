@@ -96,7 +96,10 @@ class SlotTable {
 
   TextureSlot make_slot(const std::string& name, const ImagePlace& place,
                         const fs::path& library) const {
-    TextureSlot slot{name, place.path, size_option_, false};
+    TextureSlot slot;
+    slot.name = name;
+    slot.path = place.path;
+    slot.size = size_option_;
     if (!place.exists) {
       warnings_.add("image missing", library.string(), 0,
                     fmt::format("image \"{}\" is neither beside this file nor beside the model{}",
@@ -104,8 +107,11 @@ class SlotTable {
       return slot;
     }
     try {
-      slot.size = probe_(place.path);
+      const ImageHeader header = probe_(place.path);
+      slot.size = header.size;
       slot.readable = true;
+      slot.kind = header.kind;
+      slot.decoder_bytes = header.decoder_bytes;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kInput) throw;
       warnings_.add("image unreadable", library.string(), 0, error.what() + consequence());
@@ -170,7 +176,9 @@ TextureSlots virtual_slot(const std::string& obj_path, std::size_t materials,
                  "and texels are not counted; give the size of the texture with -t WxH");
   }
   TextureSlots result;
-  result.slots.push_back({"N/A", "", size_option.value_or(ImageSize{1, 1}), false});
+  result.slots.emplace_back();
+  result.slots[0].name = "N/A";
+  result.slots[0].size = size_option.value_or(ImageSize{1, 1});
   result.of_material.assign(materials, kOnly);
   result.without_material = kOnly;
   result.unit_slot = !size_option;

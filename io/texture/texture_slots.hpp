@@ -7,22 +7,19 @@
 #include <vector>
 
 #include "io/ids.hpp"
+#include "io/texture/image_header.hpp"
 #include "io/warnings.hpp"
 
 namespace atlasgauge {
-
-/// Width and height in texels.
-struct ImageSize {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-};
 
 /// One image file that the materials name, used by a face or not.
 struct TextureSlot {
   std::string name;  ///< as spelled in the MTL, with slashes; "N/A" for the virtual slot
   std::string path;  ///< resolved; empty for the virtual slot
-  std::optional<ImageSize> size;  ///< from the image's header, else from `-t`, else none
-  bool readable = false;          ///< the image's header could be read
+  std::optional<ImageSize> size;      ///< from the image's header, else from `-t`, else none
+  bool readable = false;              ///< the image's header could be read
+  TexelKind kind = TexelKind::kByte;  ///< of a readable image
+  std::uint64_t decoder_bytes = 0;    ///< see ImageHeader
 };
 
 /// The slots of a model, and the slot of every material that faces use.
@@ -35,9 +32,6 @@ struct TextureSlots {
 
   std::uint64_t memory_bytes() const;
 };
-
-/// Reads the size of an image; throws Error(kInput) if it cannot be read.
-using ImageProbe = std::function<ImageSize(const std::string& path)>;
 
 /// Resolves libraries (relative to the OBJ) and images (to the MTL, then to the OBJ) by SPEC
 /// section 1. Missing libraries and unreadable images are warnings.

@@ -168,9 +168,22 @@ class UvEdges {
   FaceChain<Record> chain_;
 };
 
-SeamCandidate seam_between(const HalfEdge& a, const HalfEdge& b) {
-  const bool sampled = a.has_uv_triangle() && b.has_uv_triangle() && a.sampled() && b.sampled();
-  return {a.face, b.face, a.length_3d, sampled ? 1U : 0U, 0};
+SeamCandidate seam_between(const HalfEdge& one, const HalfEdge& other) {
+  const bool in_order = by_uv(one, other);
+  const HalfEdge& a = in_order ? one : other;
+  const HalfEdge& b = in_order ? other : one;
+  SeamCandidate seam{};
+  seam.v[0] = VertexId{a.lo};
+  seam.v[1] = VertexId{a.hi};
+  seam.faces[0] = a.face;
+  seam.faces[1] = b.face;
+  seam.sides[0] = {a.slot(), {a.uv_lo, a.uv_hi}};
+  seam.sides[1] = {b.slot(), {b.uv_lo, b.uv_hi}};
+  seam.length_3d = a.length_3d;
+  seam.sampled = a.has_uv_triangle() && b.has_uv_triangle() && a.sampled() && b.sampled();
+  seam.runs_down[0] = !a.forward();
+  seam.runs_down[1] = !b.forward();
+  return seam;
 }
 
 template <class Record>

@@ -9,6 +9,7 @@
 
 #include "io/ids.hpp"
 #include "io/mesh_batch.hpp"
+#include "stream/groups.hpp"
 #include "stream/mesh/triangle.hpp"
 
 // The records that stages exchange through scratch.
@@ -112,12 +113,17 @@ struct WeldedHalfEdge : HalfEdge {
 };
 static_assert(sizeof(WeldedHalfEdge) == 48);
 
-/// A seam edge, unless one of its faces turns out to be in a null chart.
+/// A seam edge, unless one of its faces turns out to be in a null chart. Its sides are in the order
+/// of slot and UVs.
 struct SeamCandidate {
-  FaceId a, b;
+  VertexId v[2];  ///< welded, the lower first
+  FaceId faces[2];
+  SeamSide sides[2];
   double length_3d;
-  std::uint32_t sampled;
-  std::uint32_t in_null_chart;
+  bool sampled;
+  bool runs_down[2];  ///< the face of this side runs the edge from v[1] to v[0]
+  bool in_null_chart;
 };
+static_assert(sizeof(SeamCandidate) == 72);
 
 }  // namespace atlasgauge

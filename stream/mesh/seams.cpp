@@ -36,7 +36,9 @@ Spill<SeamCandidate> mark(const Engine& engine, Spill<SeamCandidate> candidates,
   SpillWriter<SeamCandidate> marked(engine.scratch);
   SeamCandidate seam{};
   while (reader.read(seam)) {
-    if (null_faces.contains(seam.a) || null_faces.contains(seam.b)) seam.in_null_chart = 1;
+    if (null_faces.contains(seam.faces[0]) || null_faces.contains(seam.faces[1])) {
+      seam.in_null_chart = true;
+    }
     marked.push(seam);
   }
   return marked.finish();
@@ -67,7 +69,13 @@ void group_seams(const Engine& engine, Spill<SeamCandidate> candidates, Spill<Fa
   SpillReader<SeamCandidate> reader(marked, SpillReader<SeamCandidate>::Mode::kConsume);
   SeamCandidate seam{};
   while (reader.read(seam)) {
-    if (seam.in_null_chart == 0) output.push({seam.length_3d, seam.sampled != 0});
+    if (seam.in_null_chart) continue;
+    SeamEdge edge;
+    std::copy(seam.v, seam.v + 2, edge.v);
+    std::copy(seam.sides, seam.sides + 2, edge.sides);
+    edge.length_3d = seam.length_3d;
+    edge.sampled = seam.sampled;
+    output.push(edge);
   }
   output.flush();
 }

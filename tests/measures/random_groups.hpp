@@ -67,7 +67,7 @@ class RandomGroups {
       groups.triangles.push_back(triangle());
       groups.raw_edges.push_back({1 + below(4), number(), below(2) == 0});
       groups.uv_edges.push_back({1 + below(3), number()});
-      groups.seam_edges.push_back({number(), below(2) == 0});
+      groups.seam_edges.push_back(seam_edge());
       groups.stars.push_back({1 + below(9), below(3), below(5) == 0, below(3) != 0, below(2)});
       groups.components.push_back({1 + below(100), below(4) != 0});
       groups.charts.push_back(chart(static_cast<FaceId>(i)));
@@ -77,6 +77,21 @@ class RandomGroups {
   }
 
   std::uint64_t below(std::uint64_t end) { return random_() % end; }
+
+  SeamEdge seam_edge() {
+    SeamEdge edge;
+    edge.v[0] = VertexId{static_cast<std::uint32_t>(below(1000))};
+    edge.v[1] = VertexId{static_cast<std::uint32_t>(1000 + below(1000))};
+    for (SeamSide& side : edge.sides) {
+      side.slot = SlotId{static_cast<std::uint32_t>(below(3))};
+      for (TexCoord& t : side.t) t = {static_cast<float>(number()), static_cast<float>(number())};
+    }
+    edge.length_3d = number();
+    edge.sampled = below(4) != 0;
+    edge.samples = edge.sampled ? below(100) : 0;
+    if (edge.samples > 0) edge.discrepancy = static_cast<double>(below(400));
+    return edge;
+  }
 
  private:
   double number() { return std::ldexp(1 + fraction(), static_cast<int>(below(60)) - 30); }

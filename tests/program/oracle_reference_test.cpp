@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "io/texture/image_info.hpp"
 #include "io/texture/image_module.hpp"
+#include "io/texture/image_reader.hpp"
 #include "tests/support/module_folder.hpp"
 #include "tests/support/oracle_comparison.hpp"
 #include "tests/support/reference_reports.hpp"
@@ -51,7 +51,7 @@ TEST(OracleReferenceTest, SmallRealModelsAgree) {
   for (const ReferenceReport& reference : list) {
     SCOPED_TRACE(reference.name);
     PipelineConfig config;
-    config.probe = read_image_size;
+    config.probe = read_image_header;
     config.texture_size = size_option(reference.options);
     const Outcome oracle = oracle_outcome(reference.model.string(), config);
     ASSERT_TRUE(oracle.report) << oracle.refusal;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "io/error.hpp"
-#include "io/texture/image_info.hpp"
+#include "io/texture/image_reader.hpp"
 #include "stream/raster/osmesa_module.hpp"
 #include "stream/raster/raster.hpp"
 #include "tests/support/module_folder.hpp"
@@ -98,7 +98,7 @@ TEST_F(RealModelsTest, BothRastersAgreeOnEveryTexel) {
   show_modules(kOsmesaModuleFile);
   PipelineConfig config;
   config.texture_size = ImageSize{100, 75};
-  config.probe = read_image_size;
+  config.probe = read_image_header;
   config.both_rasters = true;
   config.tile_size = 512;
   std::uint64_t drawn = 0;

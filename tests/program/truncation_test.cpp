@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "io/error.hpp"
-#include "io/texture/image_info.hpp"
+#include "io/texture/image_reader.hpp"
 #include "tests/support/compressed.hpp"
 #include "tests/support/oracle_comparison.hpp"
 #include "tests/support/temp_dir.hpp"
@@ -167,7 +167,7 @@ class ImageTruncationTest : public TruncationTest {
     TruncationTest::SetUp();
     const auto folder = std::filesystem::path(ATLASGAUGE_PROGRAM).parent_path();
     ASSERT_EQ(::setenv("ATLASGAUGE_MODULE_DIR", folder.c_str(), 1), 0);
-    config_.probe = read_image_size;
+    config_.probe = read_image_header;
     dir_.write("model.mtl", "newmtl first\nmap_Kd a.png\n");
     model_ = dir_.write("model.obj",
                         "mtllib model.mtl\nusemtl first\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"

@@ -50,7 +50,7 @@ oracle::Options oracle_options(const PipelineConfig& config) {
     std::error_code ignored;
     if (!probe || !std::filesystem::is_regular_file(path, ignored)) return size;
     try {
-      const ImageSize found = probe(path);
+      const ImageSize found = probe(path).size;
       size = {found.width, found.height};
     } catch (const Error&) {
     }
@@ -74,7 +74,7 @@ ImageProbe probe_of(ImageSizes sizes) {
   return [sizes = std::move(sizes)](const std::string& path) {
     const auto found = sizes.find(std::filesystem::path(path).filename().string());
     if (found == sizes.end()) throw Error(ErrorKind::kInput, path, 0, "missing");
-    return ImageSize{found->second.first, found->second.second};
+    return ImageHeader{.size = {found->second.first, found->second.second}};
   };
 }
 

@@ -34,7 +34,8 @@ PipelineResult run_pipeline(const std::string& model, const PipelineConfig& conf
   StageLog log(scratch, workers);
   const Engine engine{budget, scratch, workers, log};
   Warnings warnings({});
-  const ImageProbe probe = config.probe ? config.probe : [](const std::string& path) -> ImageSize {
+  const ImageProbe probe =
+      config.probe ? config.probe : [](const std::string& path) -> ImageHeader {
     throw Error(ErrorKind::kInput, path, 0, "no images in this test");
   };
   MeasureSet measures(workers.count());

@@ -18,7 +18,7 @@ using Lines = std::vector<std::string>;
 /// A model in a folder of its own, whose images are files that hold "WxH".
 class TextureSlotsTest : public ::testing::Test {
  protected:
-  static ImageSize probe(const std::string& path) {
+  static ImageHeader probe(const std::string& path) {
     const auto bytes = static_cast<std::uint32_t>(std::filesystem::file_size(path));
     if (bytes == 0) throw Error(ErrorKind::kInput, path, 0, "no image");
     return {bytes, 2 * bytes};
@@ -180,7 +180,7 @@ TEST_F(TextureSlotsTest, FaultsOfTheProgramAreNotWarnings) {
   dir_.write("models/a.mtl", "newmtl a\nmap_Kd 1.png\n");
   dir_.write("models/1.png", "x");
   Warnings warnings(nullptr);
-  const ImageProbe broken = [](const std::string&) -> ImageSize {
+  const ImageProbe broken = [](const std::string&) -> ImageHeader {
     throw Error(ErrorKind::kInternal, "module missing");
   };
   EXPECT_THROW(resolve_textures((dir_.path() / "models/model.obj").string(), {"a.mtl"}, {},

@@ -289,11 +289,16 @@ TEST(SeamsTest, CandidatesAreDroppedByEitherFaceForAnyBudget) {
     for (std::uint32_t i = 0; i < 200000; i += 3) null_faces.push_back(FaceId{i});
     std::vector<SeamCandidate> candidates;
     for (std::uint32_t i = 0; i < 10000; ++i) {
-      candidates.push_back({FaceId{i * 13 % 200000}, FaceId{i * 17 % 200000}, 1.0 + i, i % 2, 0});
+      SeamCandidate seam{};
+      seam.faces[0] = FaceId{i * 13 % 200000};
+      seam.faces[1] = FaceId{i * 17 % 200000};
+      seam.length_3d = 1.0 + i;
+      candidates.push_back(seam);
     }
     std::vector<double> expected;
     for (const SeamCandidate& seam : candidates) {
-      if (raw(seam.a) % 3 != 0 && raw(seam.b) % 3 != 0) expected.push_back(seam.length_3d);
+      if (raw(seam.faces[0]) % 3 != 0 && raw(seam.faces[1]) % 3 != 0)
+        expected.push_back(seam.length_3d);
     }
     GroupCollector groups;
     group_seams(engine, spill_of(engine, candidates), spill_of(engine, null_faces), 200000, groups);

@@ -112,8 +112,8 @@ TEST_P(EdgesTest, UvJumpIsASeam) {
   const std::vector<SeamCandidate> seams = records_of(stages.edges.seams);
   ASSERT_EQ(seams.size(), 1U);
   EXPECT_EQ(seams[0].length_3d, std::sqrt(2.0));
-  EXPECT_EQ(seams[0].sampled, 1U);
-  EXPECT_EQ(raw(seams[0].a) + raw(seams[0].b), 1U);
+  EXPECT_TRUE(seams[0].sampled);
+  EXPECT_EQ(raw(seams[0].faces[0]) + raw(seams[0].faces[1]), 1U);
 }
 
 TEST_P(EdgesTest, UvsThatMeetAtOneEndOnlyAreASeam) {
@@ -158,13 +158,13 @@ TEST_P(EdgesTest, SeamWithoutUvTriangleOrImageIsUnsampled) {
   mesh.faces[1].t[0] = kNone<TexCoordId>;
   const std::vector<SeamCandidate> seams = records_of(edges_of(mesh).edges.seams);
   ASSERT_EQ(seams.size(), 1U);
-  EXPECT_EQ(seams[0].sampled, 0U);
+  EXPECT_FALSE(seams[0].sampled);
 
   mesh.uv(0.9F, 0.9F);
   mesh.faces[1].t[0] = TexCoordId{4};
   TextureSlots unreadable = one_image();
   unreadable.slots[0].readable = false;
-  EXPECT_EQ(records_of(edges_of(mesh, unreadable).edges.seams).at(0).sampled, 0U);
+  EXPECT_FALSE(records_of(edges_of(mesh, unreadable).edges.seams).at(0).sampled);
 }
 
 TEST_P(EdgesTest, WeldedSeamJoinsWhatTheIndicesCut) {

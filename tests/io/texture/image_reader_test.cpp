@@ -1,4 +1,4 @@
-#include "io/texture/image_info.hpp"
+#include "io/texture/image_reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ class ImageInfoTest : public ::testing::Test {
 
   std::string error_of(const std::string& path) {
     try {
-      read_image_size(path);
+      read_image_header(path);
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kInput);
       return error.what();
@@ -33,14 +33,14 @@ class ImageInfoTest : public ::testing::Test {
 };
 
 TEST_F(ImageInfoTest, ReadsTheSizeFromTheHeader) {
-  const ImageSize size = read_image_size(dir_.write("grey.pgm", kGreyImage));
+  const ImageSize size = read_image_header(dir_.write("grey.pgm", kGreyImage)).size;
   EXPECT_EQ(size.width, 3U);
   EXPECT_EQ(size.height, 2U);
 }
 
 TEST_F(ImageInfoTest, TheEndingOfTheNameDoesNotMatter) {
-  EXPECT_EQ(read_image_size(dir_.write("grey.png", kGreyImage)).width, 3U);
-  EXPECT_EQ(read_image_size(dir_.write("grey", kGreyImage)).width, 3U);
+  EXPECT_EQ(read_image_header(dir_.write("grey.png", kGreyImage)).size.width, 3U);
+  EXPECT_EQ(read_image_header(dir_.write("grey", kGreyImage)).size.width, 3U);
 }
 
 TEST_F(ImageInfoTest, ImagesThatCannotBeReadAreErrors) {
