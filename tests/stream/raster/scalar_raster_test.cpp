@@ -87,6 +87,15 @@ TEST(ScalarRasterTest, AgreesWithTheHalfSpaceRule) {
   }
 }
 
+TEST(ScalarRasterTest, AgreesForTrianglesOfATexelOrTwo) {
+  std::mt19937 random(3);
+  for (const std::int64_t step : {1, 64, 128}) {
+    for (const std::int64_t reach : {100, 250, 400}) {
+      expect_as_naive(random_triangles(random, 4000, 64, reach, step), {0, 0, 64, 64}, {64, 64});
+    }
+  }
+}
+
 TEST(ScalarRasterTest, AgreesForTrianglesThatReachToTheLimit) {
   std::mt19937 random(2);
   const std::int64_t limit = std::int64_t{1} << 38;
