@@ -9,11 +9,13 @@
 #include "stream/mesh/charts.hpp"
 #include "stream/mesh/components.hpp"
 #include "stream/mesh/edges.hpp"
-#include "stream/mesh/seams.hpp"
 #include "stream/mesh/stars.hpp"
 #include "stream/mesh/triangles.hpp"
 #include "stream/mesh/weld.hpp"
 #include "stream/raster/atlas_raster.hpp"
+#include "stream/seams/located_seams.hpp"
+#include "stream/seams/null_charts.hpp"
+#include "stream/seams/seam_sampling.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -138,6 +140,28 @@ ChartStage stream_charts(const Engine& engine, const StreamOptions& options, Edg
   return {std::move(labels.by_all_edges()), std::move(results.null_faces)};
 }
 
+SeamPlan plan_seams(const std::string& path, const StreamOptions& options) {
+  return {.decode = {.model = path,
+                     .open_image = options.open_image,
+                     .spare_bytes = options.spare_bytes},
+          .texmetro = options.texmetro_seams,
+          .keep_edges = static_cast<bool>(options.on_seams)};
+}
+
+void stream_seams(const Engine& engine, const SeamPlan& plan, Spill<SeamCandidate> candidates,
+                  Spill<FaceId> null_faces, const SlotFrames& frames, const StreamOptions& options,
+                  Warnings& warnings, MeshFacts& facts, GroupSinks& sinks) {
+  Spill<SeamCandidate> edges =
+      drop_null_charts(engine, std::move(candidates), std::move(null_faces), facts.faces);
+  SeamResults seams =
+      sample_seams(engine, std::move(edges), facts.textures, frames, plan, warnings, sinks);
+  facts.texture_seams = std::move(seams.textures);
+  facts.seams = seams.work;
+  if (!options.on_seams) return;
+  LocatedSeams rows(engine, std::move(seams.edges), facts.vertices);
+  options.on_seams(rows);
+}
+
 std::map<std::string, Distribution> select_quantiles(
     const Engine& engine, GroupSinks& sinks, std::vector<std::unique_ptr<SampleStore>> stores) {
   const std::vector<std::string> names = sinks.distributions();
@@ -175,6 +199,8 @@ MeshFacts stream_model(const Engine& engine, const std::string& path, const Stre
   summary = {};
   const Reservation textures_memory =
       engine.budget.reserve(memory_bytes(facts.textures), "a model with so many textures");
+  const SeamPlan seam_plan = plan_seams(path, options);
+  require_room_for_images(engine, facts.textures, seam_plan.decode);
 
   Weld weld = weld_vertices(engine, mesh);
   facts.duplicate_positions = weld.duplicates;
@@ -211,7 +237,8 @@ MeshFacts stream_model(const Engine& engine, const std::string& path, const Stre
   }
   charts.of_faces.clear();
   triangles.faces.clear();
-  group_seams(engine, std::move(edges.seams), std::move(charts.null_faces), facts.faces, sinks);
+  stream_seams(engine, seam_plan, std::move(edges.seams), std::move(charts.null_faces), frames,
+               options, warnings, facts, sinks);
   facts.distributions = select_quantiles(engine, sinks, std::move(triangles.samples));
   return facts;
 }

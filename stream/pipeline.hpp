@@ -15,6 +15,7 @@
 #include "stream/mesh/mesh_store.hpp"
 #include "stream/raster/atlas_maps.hpp"
 #include "stream/raster/atlas_raster.hpp"
+#include "stream/seams/seam_sampling.hpp"
 
 namespace atlasgauge {
 
@@ -35,6 +36,7 @@ struct MeshFacts {
   AtlasStore atlas;                   ///< empty unless distortions were asked for
   Spill<Position> vertices;           ///< by VertexId
   Spill<TextureSeams> texture_seams;  ///< by slot; of those that have any
+  SeamWork seams;
 };
 
 /// Finds the slots of a model from what its OBJ says.
@@ -48,6 +50,8 @@ struct StreamOptions {
   /// facts keep what maps are drawn from.
   std::function<double(const Triangle&)> distortion_of;
   OpenImage open_image = atlasgauge::open_image;
+  /// Memory within the limit of the process that the engine leaves to decoders of images.
+  std::uint64_t spare_bytes = 0;
   bool texmetro_seams = false;              ///< sample seams as TexMetro does, too
   std::function<void(SeamRows&)> on_seams;  ///< all seam edges; may be empty
 };
@@ -59,7 +63,6 @@ struct StreamOptions {
 ///        -> labels: components, boundary, charts -> raster (needs chart numbers) -> seams
 ///        -> percentiles (the cutoff of s_f needs the occupancy)
 ///
-/// Not there yet, and where it belongs: texel sampling after seams.
 MeshFacts stream_model(const Engine& engine, const std::string& path, const StreamOptions& options,
                        Warnings& warnings, const ResolveTextures& resolve_textures,
                        GroupSinks& sinks);

@@ -4,28 +4,16 @@
 #include <cmath>
 #include <utility>
 
+#include "stream/engine/fixed_sum.hpp"
+
 namespace atlasgauge {
 namespace {
-
-__extension__ typedef __int128 Int128;
 
 constexpr std::size_t kTargets = 2 * Quantiles::kPercents.size();
 
 std::uint64_t key_of(double value) {
   return std::bit_cast<std::uint64_t>(value + 0.0);
 }
-
-/// Weights as integers: in units of 2^-62 of the heaviest.
-class FixedWeight {
- public:
-  explicit FixedWeight(double heaviest) : scale_(heaviest > 0 ? 61 - std::ilogb(heaviest) : 0) {}
-  std::int64_t of(double weight) const {
-    return static_cast<std::int64_t>(std::llrint(std::scalbn(weight, scale_)));
-  }
-
- private:
-  int scale_;
-};
 
 /// A stretch of keys that holds at least one quantile, cut into bins of 2^shift keys.
 struct Interval {
@@ -234,7 +222,7 @@ class Selection {
 
   const Engine& engine_;
   Spill<Sample> samples_;
-  FixedWeight weight_;
+  FixedScale weight_;
   std::size_t bins_ = 0;
   std::vector<Interval> intervals_;
   bool targets_set_ = false;

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <new>
+#include <system_error>
 
 #include "io/error.hpp"
 
@@ -158,6 +160,14 @@ void Scratch::read(BlockId block, std::size_t offset, std::byte* to, std::size_t
   });
   const std::lock_guard lock(mutex_);
   read_bytes_ += size;
+}
+
+std::uint64_t Scratch::room_bytes() const {
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(directory_, error);
+  if (error) return ~std::uint64_t{0};
+  const std::lock_guard lock(mutex_);
+  return (std::uint64_t{resident_blocks_} + next_on_disk_) * block_bytes_ + space.available;
 }
 
 std::uint64_t Scratch::written_bytes() const {

@@ -72,6 +72,10 @@ class Scratch {
   /// up to the next multiple of kAlignment.
   void read(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const;
 
+  /// What blocks can hold in all, those in use included: the pool, the file, and the free space of
+  /// its file system; the largest number if that cannot be told.
+  std::uint64_t room_bytes() const;
+
   std::uint64_t written_bytes() const;
   std::uint64_t read_bytes() const;
   /// Largest number of bytes that blocks, resident or not, held at one time.

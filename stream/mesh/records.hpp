@@ -122,7 +122,6 @@ struct SeamCandidate {
   double length_3d;
   bool sampled;
   bool runs_down[2];  ///< the face of this side runs the edge from v[1] to v[0]
-  bool in_null_chart;
 };
 static_assert(sizeof(SeamCandidate) == 72);
 

@@ -14,7 +14,7 @@ namespace {
 struct Atlas {
   std::vector<Chart> charts;  ///< by number
   std::vector<std::uint32_t> null_faces;
-  std::vector<SeamEdge> seams;
+  std::vector<SeamCandidate> seams;
 };
 
 Atlas atlas_of(const SmallMesh& mesh, const EngineOptions& options = {}) {
@@ -25,9 +25,8 @@ Atlas atlas_of(const SmallMesh& mesh, const EngineOptions& options = {}) {
   Atlas atlas;
   for (const FaceId face : records_of(null_faces)) atlas.null_faces.push_back(raw(face));
   std::sort(atlas.null_faces.begin(), atlas.null_faces.end());
-  stages.run_seams(std::move(null_faces));
+  atlas.seams = records_of(stages.run_seams(std::move(null_faces)));
   atlas.charts = stages.groups.charts;
-  atlas.seams = stages.groups.seam_edges;
   return atlas;
 }
 
@@ -279,34 +278,6 @@ TEST(SeamsTest, EdgeToANullChartIsNoSeam) {
   const Atlas atlas = atlas_of(mesh);
   EXPECT_EQ(atlas.null_faces, (FaceList{1}));
   EXPECT_TRUE(atlas.seams.empty());
-}
-
-TEST(SeamsTest, CandidatesAreDroppedByEitherFaceForAnyBudget) {
-  // Every third of 200000 faces is in a null chart; with 16 KiB their bits take several passes.
-  for (const std::uint64_t kib : {16, 4096}) {
-    TestEngine engine({.budget_bytes = kib << 10});
-    std::vector<FaceId> null_faces;
-    for (std::uint32_t i = 0; i < 200000; i += 3) null_faces.push_back(FaceId{i});
-    std::vector<SeamCandidate> candidates;
-    for (std::uint32_t i = 0; i < 10000; ++i) {
-      SeamCandidate seam{};
-      seam.faces[0] = FaceId{i * 13 % 200000};
-      seam.faces[1] = FaceId{i * 17 % 200000};
-      seam.length_3d = 1.0 + i;
-      candidates.push_back(seam);
-    }
-    std::vector<double> expected;
-    for (const SeamCandidate& seam : candidates) {
-      if (raw(seam.faces[0]) % 3 != 0 && raw(seam.faces[1]) % 3 != 0)
-        expected.push_back(seam.length_3d);
-    }
-    GroupCollector groups;
-    group_seams(engine, spill_of(engine, candidates), spill_of(engine, null_faces), 200000, groups);
-    std::vector<double> found;
-    for (const SeamEdge& seam : groups.seam_edges) found.push_back(seam.length_3d);
-    std::sort(found.begin(), found.end());
-    EXPECT_EQ(found, expected);
-  }
 }
 
 class ChartsBudgetTest : public testing::TestWithParam<std::tuple<std::uint64_t, std::size_t>> {

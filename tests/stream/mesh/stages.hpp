@@ -14,10 +14,10 @@
 #include "stream/mesh/charts.hpp"
 #include "stream/mesh/components.hpp"
 #include "stream/mesh/edges.hpp"
-#include "stream/mesh/seams.hpp"
 #include "stream/mesh/stars.hpp"
 #include "stream/mesh/triangles.hpp"
 #include "stream/mesh/weld.hpp"
+#include "stream/seams/null_charts.hpp"
 #include "tests/stream/mesh/small_mesh.hpp"
 #include "tests/support/engine_fixture.hpp"
 
@@ -110,8 +110,8 @@ class Stages {
     return std::move(results.null_faces);
   }
 
-  void run_seams(Spill<FaceId> null_faces) {
-    group_seams(engine_, std::move(edges.seams), std::move(null_faces), facts.size(), groups);
+  Spill<SeamCandidate> run_seams(Spill<FaceId> null_faces) {
+    return drop_null_charts(engine_, std::move(edges.seams), std::move(null_faces), facts.size());
   }
 
  private:

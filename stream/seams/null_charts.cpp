@@ -1,4 +1,4 @@
-#include "stream/mesh/seams.hpp"
+#include "stream/seams/null_charts.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -30,54 +30,31 @@ class NullFaces {
   std::vector<std::uint8_t> bits_;
 };
 
-Spill<SeamCandidate> mark(const Engine& engine, Spill<SeamCandidate> candidates,
+Spill<SeamCandidate> drop(const Engine& engine, Spill<SeamCandidate> candidates,
                           const NullFaces& null_faces) {
   SpillReader<SeamCandidate> reader(candidates, SpillReader<SeamCandidate>::Mode::kConsume);
-  SpillWriter<SeamCandidate> marked(engine.scratch);
+  SpillWriter<SeamCandidate> rest(engine.scratch);
   SeamCandidate seam{};
   while (reader.read(seam)) {
-    if (null_faces.contains(seam.faces[0]) || null_faces.contains(seam.faces[1])) {
-      seam.in_null_chart = true;
-    }
-    marked.push(seam);
+    if (null_faces.contains(seam.faces[0]) || null_faces.contains(seam.faces[1])) continue;
+    rest.push(seam);
   }
-  return marked.finish();
-}
-
-/// As many passes over the candidates as the bits of all faces need.
-Spill<SeamCandidate> mark_null_charts(const Engine& engine, Spill<SeamCandidate> candidates,
-                                      Spill<FaceId> null_faces, std::uint64_t faces) {
-  if (null_faces.empty()) return candidates;
-  const std::uint64_t block_bytes = engine.block_bytes();
-  const Reservation memory = engine.budget.reserve_between(
-      4 * block_bytes, 3 * block_bytes + faces / 8 + 1, "marking null charts");
-  const std::uint64_t bytes = memory.bytes() - 3 * block_bytes;
-  for (std::uint64_t begin = 0; begin < faces; begin += 8 * bytes) {
-    candidates = mark(engine, std::move(candidates), NullFaces(null_faces, begin, bytes));
-  }
-  return candidates;
+  return rest.finish();
 }
 
 }  // namespace
 
-void group_seams(const Engine& engine, Spill<SeamCandidate> candidates, Spill<FaceId> null_faces,
-                 std::uint64_t faces, GroupSinks& sinks) {
-  StageLog::Stage stage(engine.log, "seams", candidates.size());
-  Spill<SeamCandidate> marked =
-      mark_null_charts(engine, std::move(candidates), std::move(null_faces), faces);
-  GroupBuffer<SeamEdge> output(sinks.of_worker(0));
-  SpillReader<SeamCandidate> reader(marked, SpillReader<SeamCandidate>::Mode::kConsume);
-  SeamCandidate seam{};
-  while (reader.read(seam)) {
-    if (seam.in_null_chart) continue;
-    SeamEdge edge;
-    std::copy(seam.v, seam.v + 2, edge.v);
-    std::copy(seam.sides, seam.sides + 2, edge.sides);
-    edge.length_3d = seam.length_3d;
-    edge.sampled = seam.sampled;
-    output.push(edge);
+Spill<SeamCandidate> drop_null_charts(const Engine& engine, Spill<SeamCandidate> candidates,
+                                      Spill<FaceId> null_faces, std::uint64_t faces) {
+  if (null_faces.empty()) return candidates;
+  const std::uint64_t block_bytes = engine.block_bytes();
+  const Reservation memory = engine.budget.reserve_between(
+      4 * block_bytes, 3 * block_bytes + faces / 8 + 1, "dropping null charts");
+  const std::uint64_t bytes = memory.bytes() - 3 * block_bytes;
+  for (std::uint64_t begin = 0; begin < faces; begin += 8 * bytes) {
+    candidates = drop(engine, std::move(candidates), NullFaces(null_faces, begin, bytes));
   }
-  output.flush();
+  return candidates;
 }
 
 }  // namespace atlasgauge

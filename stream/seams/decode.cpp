@@ -1,0 +1,227 @@
+#include "stream/seams/decode.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "io/bytes.hpp"
+#include "io/error.hpp"
+
+namespace atlasgauge {
+namespace {
+
+TileLayout layout_of(const TextureSlot& slot) {
+  return {*slot.size, slot.kind};
+}
+
+/// Memory that decoding a slot's image takes, whoever allocates it.
+std::uint64_t decoding_bytes(const Engine& engine, const TextureSlot& slot) {
+  return layout_of(slot).band_bytes() + slot.decoder_bytes + TexelStore::Reader::kMemoryBytes +
+         engine.block_bytes();
+}
+
+std::string described(const TextureSlot& slot) {
+  return fmt::format("{} ({} x {} texels)", slot.path, slot.size->width, slot.size->height);
+}
+
+/// Beyond what is spare, memory comes out of the budget.
+Reservation reserve(const Engine& engine, std::uint64_t bytes, const DecodePlan& plan,
+                    const TextureSlot& largest) {
+  return engine.budget.reserve(bytes - std::min(bytes, plan.spare_bytes),
+                               "decoding the image " + described(largest));
+}
+
+/// The slots that materials of the faces name.
+std::vector<bool> named_slots(const TextureSlots& textures) {
+  std::vector<bool> named(textures.slots.size(), false);
+  const auto name = [&](SlotId slot) {
+    if (slot != kNone<SlotId>) named[raw(slot)] = true;
+  };
+  for (const SlotId slot : textures.of_material) name(slot);
+  name(textures.without_material);
+  return named;
+}
+
+/// What one worker decodes.
+class Decoder {
+ public:
+  explicit Decoder(Scratch& scratch) : pages_(scratch) {}
+
+  /// The first page of the image. Throws Error(kInput).
+  std::uint64_t decode(const TextureSlot& slot, const OpenImage& open) {
+    const TileLayout layout = layout_of(slot);
+    const std::unique_ptr<ImageRows> rows = open(slot.path);
+    require_as_before(rows->header(), slot);
+    const std::uint64_t first_page = pages_.size();
+    std::vector<std::byte> band(layout.band_bytes());
+    for (std::uint32_t row = 0; row < layout.rows(); ++row) {
+      const std::uint64_t first_tile = std::uint64_t{row} * layout.columns();
+      rows->read(layout.tile(first_tile).height, band.data());
+      write_band(band, *slot.size, texel_bytes(slot.kind), layout, first_tile);
+    }
+    return first_page;
+  }
+
+  Spill<TexelPage> finish() { return pages_.finish(); }
+
+ private:
+  static void require_as_before(const ImageHeader& header, const TextureSlot& slot) {
+    if (header.size.width == slot.size->width && header.size.height == slot.size->height &&
+        header.kind == slot.kind) {
+      return;
+    }
+    throw Error(ErrorKind::kInput, slot.path, 0, "the image has changed since the run began");
+  }
+
+  void write_band(std::span<const std::byte> band, ImageSize size, std::uint32_t bytes_of_texel,
+                  const TileLayout& layout, std::uint64_t first_tile) {
+    const std::size_t band_row_bytes = std::size_t{size.width} * bytes_of_texel;
+    for (std::uint32_t column = 0; column < layout.columns(); ++column) {
+      const ImageTile tile = layout.tile(first_tile + column);
+      const std::size_t row_bytes = std::size_t{tile.width} * bytes_of_texel;
+      tile_.assign(tile.pages, {});
+      std::byte* to = tile_.data()->bytes;
+      const std::byte* from =
+          band.data() + std::size_t{column} * TileLayout::kSide * bytes_of_texel;
+      for (std::uint32_t y = 0; y < tile.height; ++y) {
+        std::memcpy(to, from, row_bytes);
+        to += row_bytes;
+        from += band_row_bytes;
+      }
+      pages_.append(tile_);
+    }
+  }
+
+  SpillWriter<TexelPage> pages_;
+  std::vector<TexelPage> tile_;
+};
+
+class ImageDecoding {
+ public:
+  ImageDecoding(const Engine& engine, const TextureSlots& textures, const DecodePlan& plan)
+      : engine_(engine), textures_(textures), plan_(plan), by_slot_(textures.slots.size()) {
+    for (std::size_t i = 0; i < engine.workers.count(); ++i) decoders_.emplace_back(engine.scratch);
+    faults_.resize(textures.slots.size());
+  }
+
+  void run(const std::vector<bool>& wanted) {
+    const std::uint64_t share_bytes =
+        (engine_.budget.free_bytes() + plan_.spare_bytes) / engine_.workers.count();
+    std::vector<std::uint32_t> together, alone;
+    for (std::uint32_t slot = 0; slot < textures_.slots.size(); ++slot) {
+      if (!wanted[slot]) continue;
+      (need_of(slot) <= share_bytes ? together : alone).push_back(slot);
+    }
+    StageLog::Stage stage(engine_.log, "decode images", together.size() + alone.size());
+    decode_together(std::move(together), stage);
+    for (const std::uint32_t slot : alone) {
+      const Reservation memory = reserve(engine_, need_of(slot), plan_, textures_.slots[slot]);
+      decode(0, slot);
+    }
+  }
+
+  TexelStore finish(Warnings& warnings) {
+    for (const std::optional<std::string>& fault : faults_) {
+      if (!fault) continue;
+      warnings.add("image undecodable", plan_.model, 0, *fault + "; its seams are not sampled");
+    }
+    std::vector<Spill<TexelPage>> spills;
+    for (Decoder& decoder : decoders_) spills.push_back(decoder.finish());
+    return {std::move(by_slot_), std::move(spills)};
+  }
+
+ private:
+  std::uint64_t need_of(std::uint32_t slot) const {
+    return decoding_bytes(engine_, textures_.slots[slot]);
+  }
+
+  /// The largest first, so that workers end at about the same time.
+  void decode_together(std::vector<std::uint32_t> slots, StageLog::Stage& stage) {
+    if (slots.empty()) return;
+    const auto texels = [&](std::uint32_t slot) {
+      const ImageSize size = *textures_.slots[slot].size;
+      return std::uint64_t{size.width} * size.height;
+    };
+    std::stable_sort(slots.begin(), slots.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return texels(a) > texels(b); });
+    const auto neediest =
+        std::max_element(slots.begin(), slots.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return need_of(a) < need_of(b); });
+    const Reservation memory = reserve(engine_, engine_.workers.count() * need_of(*neediest), plan_,
+                                       textures_.slots[*neediest]);
+    engine_.workers.for_each(slots.size(), [&](std::size_t worker, std::size_t item) {
+      decode(worker, slots[item]);
+      if (worker == 0) stage.progress(item + 1);
+    });
+  }
+
+  void decode(std::size_t worker, std::uint32_t number) {
+    const TextureSlot& slot = textures_.slots[number];
+    try {
+      const std::uint64_t first_page = decoders_[worker].decode(slot, plan_.open_image);
+      by_slot_[number] = {.decoded = true,
+                          .kind = slot.kind,
+                          .size = *slot.size,
+                          .layout = layout_of(slot),
+                          .spill = worker,
+                          .first_page = first_page,
+                          .first_tile = 0};
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kInput) throw;
+      faults_[number] = error.what();
+    }
+  }
+
+  const Engine& engine_;
+  const TextureSlots& textures_;
+  const DecodePlan& plan_;
+  std::vector<Decoder> decoders_;
+  std::vector<StoredImage> by_slot_;
+  std::vector<std::optional<std::string>> faults_;  ///< by slot
+};
+
+}  // namespace
+
+void require_room_for_images(const Engine& engine, const TextureSlots& textures,
+                             const DecodePlan& plan) {
+  const std::vector<bool> named = named_slots(textures);
+  const TextureSlot* largest = nullptr;
+  std::uint64_t largest_bytes = 0;
+  std::uint64_t all_bytes = 0;
+  for (std::size_t i = 0; i < textures.slots.size(); ++i) {
+    const TextureSlot& slot = textures.slots[i];
+    if (!named[i] || !slot.readable) continue;
+    reserve(engine, decoding_bytes(engine, slot), plan, slot);
+    const std::uint64_t bytes = layout_of(slot).page_count() * sizeof(TexelPage);
+    all_bytes += bytes;
+    if (largest == nullptr || bytes > largest_bytes) {
+      largest = &slot;
+      largest_bytes = bytes;
+    }
+  }
+  const std::uint64_t room_bytes = engine.scratch.room_bytes();
+  if (all_bytes <= room_bytes) return;
+  throw Error(ErrorKind::kResource, largest->path, 0,
+              fmt::format("the images take {} of scratch when decoded, this one alone {} ({} x {} "
+                          "texels), but there is room for {}; free space there or give another "
+                          "directory with --tmp-dir",
+                          format_bytes(all_bytes), format_bytes(largest_bytes),
+                          largest->size->width, largest->size->height, format_bytes(room_bytes)));
+}
+
+TexelStore decode_images(const Engine& engine, const TextureSlots& textures,
+                         const std::vector<bool>& wanted, const DecodePlan& plan,
+                         Warnings& warnings) {
+  ImageDecoding decoding(engine, textures, plan);
+  decoding.run(wanted);
+  return decoding.finish(warnings);
+}
+
+}  // namespace atlasgauge
