@@ -1,35 +1,54 @@
-#include <OpenImageIO/imageio.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 
+#include "io/texture/image_header.hpp"
+#include "io/texture/image_module_decoder.hpp"
 #include "io/texture/image_module_guard.hpp"
 
-namespace {
+using atlasgauge::Decoder;
+using atlasgauge::ImageHeader;
+using atlasgauge::tell_fault;
 
-std::string library_error() {
-  const std::string text = OIIO::geterror();
-  return text.empty() ? "the file is no image of a known format" : text;
+extern "C" {
+
+__attribute__((visibility("default"))) bool atlasgauge_read_image_header(const char* path,
+                                                                         ImageHeader* header,
+                                                                         char* error,
+                                                                         std::size_t error_bytes) {
+  const auto work = [&] {
+    *header = Decoder(path).header();
+    return std::string();
+  };
+  return tell_fault(work, error, error_bytes);
 }
 
-/// Returns the fault, or an empty text.
-std::string read_size(const char* path, std::uint32_t& width, std::uint32_t& height) {
-  const std::unique_ptr<OIIO::ImageInput> image = OIIO::ImageInput::open(path);
-  if (!image) return library_error();
-  const OIIO::ImageSpec& spec = image->spec();
-  if (spec.width <= 0 || spec.height <= 0) return "the header names an image without texels";
-  width = static_cast<std::uint32_t>(spec.width);
-  height = static_cast<std::uint32_t>(spec.height);
-  return {};
+__attribute__((visibility("default"))) void* atlasgauge_open_image(const char* path,
+                                                                   ImageHeader* header, char* error,
+                                                                   std::size_t error_bytes) {
+  std::unique_ptr<Decoder> image;
+  const auto work = [&] {
+    image = std::make_unique<Decoder>(path);
+    *header = image->header();
+    return std::string();
+  };
+  return tell_fault(work, error, error_bytes) ? image.release() : nullptr;
 }
 
-}  // namespace
-
-extern "C" __attribute__((visibility("default"))) bool atlasgauge_image_size(
-    const char* path, std::uint32_t* width, std::uint32_t* height, char* error,
-    std::size_t error_bytes) {
-  return atlasgauge::tell_fault([&] { return read_size(path, *width, *height); }, error,
-                                error_bytes);
+__attribute__((visibility("default"))) bool atlasgauge_read_image_rows(void* image,
+                                                                       std::uint32_t rows,
+                                                                       std::byte* to, char* error,
+                                                                       std::size_t error_bytes) {
+  const auto work = [&] {
+    static_cast<Decoder*>(image)->read(rows, to);
+    return std::string();
+  };
+  return tell_fault(work, error, error_bytes);
 }
+
+__attribute__((visibility("default"))) void atlasgauge_close_image(void* image) {
+  delete static_cast<Decoder*>(image);
+}
+
+}  // extern "C"

@@ -11,24 +11,58 @@
 namespace atlasgauge {
 namespace {
 
-ImageSizeFunction load_module() {
-  return reinterpret_cast<ImageSizeFunction>(module_symbol(kImageModule, kImageSizeSymbol));
+using ErrorText = std::array<char, 512>;
+
+template <class Function>
+Function function_of_module(const char* symbol) {
+  return reinterpret_cast<Function>(module_symbol(kImageModule, symbol));
 }
+
+[[noreturn]] void fail(const std::string& path, const ErrorText& error) {
+  throw Error(ErrorKind::kInput, path, 0, std::string("cannot read the image: ") + error.data());
+}
+
+void close(void* image) {
+  static const auto close_image = function_of_module<CloseImageFunction>(kCloseImageSymbol);
+  close_image(image);
+}
+
+class ModuleRows final : public ImageRows {
+ public:
+  explicit ModuleRows(std::string path) : path_(std::move(path)), image_(nullptr, close) {
+    static const auto open = function_of_module<OpenImageFunction>(kOpenImageSymbol);
+    ErrorText error{};
+    image_.reset(open(path_.c_str(), &header_, error.data(), error.size()));
+    if (!image_) fail(path_, error);
+  }
+
+  const ImageHeader& header() const override { return header_; }
+
+  void read(std::uint32_t rows, std::byte* to) override {
+    static const auto read_rows = function_of_module<ReadImageRowsFunction>(kReadImageRowsSymbol);
+    ErrorText error{};
+    if (!read_rows(image_.get(), rows, to, error.data(), error.size())) fail(path_, error);
+  }
+
+ private:
+  std::string path_;
+  ImageHeader header_;
+  std::unique_ptr<void, void (*)(void*)> image_;
+};
 
 }  // namespace
 
 ImageHeader read_image_header(const std::string& path) {
-  static const ImageSizeFunction image_size = load_module();
-  ImageSize size;
-  std::array<char, 512> error{};
-  if (!image_size(path.c_str(), &size.width, &size.height, error.data(), error.size())) {
-    throw Error(ErrorKind::kInput, path, 0, std::string("cannot read the image: ") + error.data());
-  }
-  return {.size = size};
+  static const auto read_header =
+      function_of_module<ReadImageHeaderFunction>(kReadImageHeaderSymbol);
+  ImageHeader header;
+  ErrorText error{};
+  if (!read_header(path.c_str(), &header, error.data(), error.size())) fail(path, error);
+  return header;
 }
 
 std::unique_ptr<ImageRows> open_image(const std::string& path) {
-  throw Error(ErrorKind::kInput, path, 0, "cannot be decoded yet");
+  return std::make_unique<ModuleRows>(path);
 }
 
 }  // namespace atlasgauge

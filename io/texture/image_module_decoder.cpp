@@ -1,0 +1,183 @@
+#include "io/texture/image_module_decoder.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+
+#include "io/texture/image_module_memory.hpp"
+#include "io/texture/image_module_whole.hpp"
+
+namespace atlasgauge {
+namespace {
+
+[[noreturn]] void fail(const std::string& text) {
+  throw std::runtime_error(text);
+}
+
+std::string last_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+/// The program has threads of its own, each with an image.
+bool use_no_threads() {
+  return OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
+}
+
+std::unique_ptr<OIIO::ImageInput> open_with_library(const std::string& path) {
+  static const bool without_threads = use_no_threads();
+  static_cast<void>(without_threads);
+  OIIO::ImageSpec as_stored;
+  as_stored.attribute("oiio:UnassociatedAlpha", 1);
+  std::unique_ptr<OIIO::ImageInput> image = OIIO::ImageInput::open(path, &as_stored);
+  const std::string error = last_line(OIIO::geterror());
+  if (!image) fail(error.empty() ? "the file is no image of a known format" : error);
+  image->threads(1);
+  return image;
+}
+
+void check_spec(const OIIO::ImageSpec& spec) {
+  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0) {
+    fail("the header names an image without texels");
+  }
+  if (spec.deep) fail("its texels are lists of samples in depth");
+}
+
+TexelKind kind_of(const OIIO::ImageSpec& spec) {
+  if (!spec.channelformats.empty()) return TexelKind::kFloat;
+  if (spec.format == OIIO::TypeDesc::UINT8) return TexelKind::kByte;
+  if (spec.format == OIIO::TypeDesc::UINT16) return TexelKind::kShort;
+  return TexelKind::kFloat;
+}
+
+OIIO::TypeDesc type_of(TexelKind kind) {
+  if (kind == TexelKind::kByte) return OIIO::TypeDesc::UINT8;
+  if (kind == TexelKind::kShort) return OIIO::TypeDesc::UINT16;
+  return OIIO::TypeDesc::FLOAT;
+}
+
+ColourChannels colours_of(const OIIO::ImageSpec& spec) {
+  if (spec.nchannels < 3) return {.of = {0, 0, 0}, .begin = 0, .end = 1};
+  std::array<int, 3> of = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+  const auto [least, most] = std::minmax_element(of.begin(), of.end());
+  if (*least < 0) return {.of = {0, 1, 2}, .begin = 0, .end = 3};
+  const int begin = *least;
+  const int end = *most + 1;
+  for (int& channel : of) channel -= begin;
+  return {.of = of, .begin = begin, .end = end};
+}
+
+bool are_rgb(const ColourChannels& channels) {
+  return channels.of == std::array<int, 3>{0, 1, 2} && channels.end - channels.begin == 3;
+}
+
+std::size_t component_bytes(TexelKind kind) {
+  return texel_bytes(kind) / 3;
+}
+
+}  // namespace
+
+Decoder::Decoder(const char* path) : path_(path) {
+  const std::optional<ImageHeader> whole = header_of_image_held_whole(path_);
+  if (whole) {
+    header_ = *whole;
+    return;
+  }
+  open();
+  header_ = {
+      .size = {static_cast<std::uint32_t>(spec_.width), static_cast<std::uint32_t>(spec_.height)},
+      .kind = kind_of(spec_),
+      .decoder_bytes = decoder_bytes(path_, image_->format_name(), spec_)};
+}
+
+void Decoder::open() {
+  image_ = open_with_library(path_);
+  spec_ = image_->spec();
+  check_spec(spec_);
+  channels_ = colours_of(spec_);
+}
+
+void Decoder::read(std::uint32_t rows, std::byte* to) {
+  if (rows > header_.size.height - next_row_) fail("the image has no more rows");
+  if (!image_) {
+    open();
+    if (static_cast<std::uint32_t>(spec_.width) != header_.size.width ||
+        static_cast<std::uint32_t>(spec_.height) != header_.size.height ||
+        kind_of(spec_) != header_.kind) {
+      fail("its header and its texels do not agree");
+    }
+  }
+  const std::size_t row_bytes = std::size_t{header_.size.width} * texel_bytes(header_.kind);
+  const std::uint32_t band = rows_at_once(spec_);
+  while (rows > 0) {
+    const std::uint32_t now =
+        spec_.tile_width > 0 ? copy_from_tiles(rows, to) : std::min(rows, band);
+    if (spec_.tile_width == 0) read_scanlines(now, to);
+    next_row_ += now;
+    rows -= now;
+    to += now * row_bytes;
+  }
+}
+
+void Decoder::read_scanlines(std::uint32_t rows, std::byte* to) {
+  const std::size_t texels = std::size_t{header_.size.width} * rows;
+  const bool direct = are_rgb(channels_);
+  if (!direct) {
+    channel_rows_.resize(texels * static_cast<std::size_t>(channels_.end - channels_.begin) *
+                         component_bytes(header_.kind));
+  }
+  const int first = spec_.y + static_cast<int>(next_row_);
+  check(image_->read_scanlines(0, 0, first, first + static_cast<int>(rows), spec_.z,
+                               channels_.begin, channels_.end, type_of(header_.kind),
+                               direct ? to : channel_rows_.data()));
+  if (!direct) spread(channel_rows_.data(), texels, to);
+}
+
+/// Reads the row of tiles that begins with the next row; of volumes, the first slice counts.
+void Decoder::read_tiles() {
+  const int rows = std::min(spec_.tile_height, spec_.height - static_cast<int>(next_row_));
+  const int slices = std::clamp(spec_.tile_depth, 1, std::max(spec_.depth, 1));
+  tile_rows_.resize(static_cast<std::size_t>(spec_.width) * static_cast<std::size_t>(rows) *
+                    static_cast<std::size_t>(slices) *
+                    static_cast<std::size_t>(channels_.end - channels_.begin) *
+                    component_bytes(header_.kind));
+  const int first = spec_.y + static_cast<int>(next_row_);
+  check(image_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, first, first + rows, spec_.z,
+                           spec_.z + slices, channels_.begin, channels_.end, type_of(header_.kind),
+                           tile_rows_.data()));
+  tile_rows_end_ = next_row_ + static_cast<std::uint32_t>(rows);
+}
+
+/// Returns how many rows it has copied.
+std::uint32_t Decoder::copy_from_tiles(std::uint32_t rows, std::byte* to) {
+  if (next_row_ == tile_rows_end_) read_tiles();
+  const auto tile_height = static_cast<std::uint32_t>(spec_.tile_height);
+  const std::uint32_t row_in_tile = next_row_ % tile_height;
+  const std::uint32_t copied = std::min(rows, tile_rows_end_ - next_row_);
+  const std::size_t row_bytes = std::size_t{header_.size.width} *
+                                static_cast<std::size_t>(channels_.end - channels_.begin) *
+                                component_bytes(header_.kind);
+  spread(tile_rows_.data() + row_in_tile * row_bytes, std::size_t{header_.size.width} * copied, to);
+  return copied;
+}
+
+/// Picks red, green and blue from the channels that are read.
+void Decoder::spread(const std::byte* from, std::size_t texels, std::byte* to) const {
+  const std::size_t bytes = component_bytes(header_.kind);
+  const std::size_t step = static_cast<std::size_t>(channels_.end - channels_.begin) * bytes;
+  for (std::size_t texel = 0; texel < texels; ++texel, from += step) {
+    for (const int channel : channels_.of) {
+      std::memcpy(to, from + static_cast<std::size_t>(channel) * bytes, bytes);
+      to += bytes;
+    }
+  }
+}
+
+void Decoder::check(bool read) {
+  if (read && !image_->has_error()) return;
+  const std::string error = last_line(image_->geterror());
+  fail(error.empty() ? "its texels cannot be decoded" : error);
+}
+
+}  // namespace atlasgauge
