@@ -29,7 +29,7 @@ using Drawing = std::vector<Drawn>;
 /// The vertex of a corner lies above its place on the texture, at the height of its chart.
 oracle::Model model_of(Size size, const Drawing& triangles) {
   oracle::Model model;
-  model.slots.push_back({"N/A", "", size, false});
+  model.slots.push_back({"N/A", "", size, {}});
   for (const Drawn& triangle : triangles) {
     oracle::Face face;
     face.slot = 0;
@@ -268,8 +268,8 @@ TEST(OracleRasterTest, OnlyFacesOfTheWeldedLevelAreDrawn) {
 
 TEST(OracleRasterTest, FaceIsDrawnOnItsOwnSlotOnly) {
   oracle::Model model = model_of(kFour, kLowerLeft);
-  model.slots.push_back({"other", "", Size{2, 2}, false});
-  model.slots.push_back({"missing", "", std::nullopt, false});
+  model.slots.push_back({"other", "", Size{2, 2}, {}});
+  model.slots.push_back({"missing", "", std::nullopt, {}});
   const json report = oracle::measure(model);
   EXPECT_EQ(report.at("texture_1").at(0).at("totalTexels"), 0);
   EXPECT_EQ(report.at("texture_2"), json::array());
@@ -316,7 +316,7 @@ TEST(OracleScaleTest, FaceBeyondAHundredTimesItsShareIsCut) {
 
 TEST(OracleScaleTest, BoundCountsTheTexelsOfUnusedSlots) {
   oracle::Model model = unequal_halves(0.99);
-  model.slots.push_back({"unused", "", kFour, false});
+  model.slots.push_back({"unused", "", kFour, {}});
   EXPECT_EQ(oracle::measure(model).at("sf_discardedArea"), 0.0);
   EXPECT_EQ(oracle::measure(model).at("occupancy"), 1.0);
 }

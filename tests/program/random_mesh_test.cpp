@@ -47,7 +47,9 @@ json oracle_report(std::uint64_t seed) {
   dir.write("random.mtl", model.mtl);
   for (const auto& image : model.images) dir.write(image.first, "");
   PipelineConfig config;
-  config.probe = probe_of(model.images);
+  const ProceduralImages images(model.images, seed);
+  config.probe = images.probe();
+  if (!model.reaches_long) config.open_image = images.open();
   if (const auto size = model.size_option) {
     config.texture_size = ImageSize{size->first, size->second};
   }

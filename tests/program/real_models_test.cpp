@@ -99,6 +99,7 @@ TEST_F(RealModelsTest, BothRastersAgreeOnEveryTexel) {
   PipelineConfig config;
   config.texture_size = ImageSize{100, 75};
   config.probe = read_image_header;
+  config.open_image = open_image;
   config.both_rasters = true;
   config.tile_size = 512;
   std::uint64_t drawn = 0;

@@ -168,6 +168,7 @@ class ImageTruncationTest : public TruncationTest {
     const auto folder = std::filesystem::path(ATLASGAUGE_PROGRAM).parent_path();
     ASSERT_EQ(::setenv("ATLASGAUGE_MODULE_DIR", folder.c_str(), 1), 0);
     config_.probe = read_image_header;
+    config_.open_image = open_image;
     dir_.write("model.mtl", "newmtl first\nmap_Kd a.png\n");
     model_ = dir_.write("model.obj",
                         "mtllib model.mtl\nusemtl first\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"

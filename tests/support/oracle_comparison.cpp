@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
 
 #include "io/error.hpp"
+#include "tests/support/agreement.hpp"
 #include "tests/support/oracle/oracle.hpp"
 #include "tests/support/pending_keys.hpp"
 
@@ -17,27 +20,66 @@ namespace {
 
 using nlohmann::json;
 
-/// Values that divide rounded sums, or take singular values in double, agree to this.
-constexpr double kRelative = 1e-11;
-/// Conformality of a sliver, between 0 and 1, is what rounding left of its area.
-constexpr double kConformality = 1e-14;
-/// The deviation of values that are all but equal is the rounding of the values, against their rms.
-constexpr double kDeviation = 1e-13;
-
+/// What agreement of values takes when one of them is 0.
 double absolute_tolerance(const std::string& key, const json& all) {
   if (key.starts_with("conformality") && !key.ends_with("_var")) return kConformality;
+  const double own = key.starts_with("seam_discrepancy") ? kDiscrepancy : 0;
   const std::string rms = key.substr(0, key.find_last_of('_')) + "_rms";
   const double scale = all.contains(rms) && all.at(rms).is_number() ? all.at(rms).get<double>() : 1;
-  if (key.ends_with("_stddev")) return kDeviation * scale;
-  if (key.ends_with("_var")) return kDeviation * scale * kDeviation * scale;
-  return 0;
+  const double deviation = std::max(own, kDeviation * scale);
+  if (key.ends_with("_stddev")) return deviation;
+  if (key.ends_with("_var")) return deviation * deviation;
+  return own;
 }
 
-bool agree(const json& got, const json& want, double absolute) {
-  if (!got.is_number_float() && !want.is_number_float()) return got == want;
-  if (!got.is_number() || !want.is_number()) return false;
-  const double a = got.get<double>(), b = want.get<double>();
-  return std::abs(a - b) <= std::max(absolute, kRelative * std::max(std::abs(a), std::abs(b)));
+bool key_agrees(const std::string& key, const json& got, const json& all_of_oracle) {
+  const json& want = all_of_oracle.at(key);
+  if (key == "worst_seams") return worst_seams_agree(got, want);
+  return agree(got, want, absolute_tolerance(key, all_of_oracle));
+}
+
+oracle::Colour colour_of(TexelKind kind, const std::byte* texel) {
+  oracle::Colour colour{};
+  for (std::size_t i = 0; i < colour.size(); ++i) {
+    switch (kind) {
+      case TexelKind::kByte:
+        colour[i] = std::to_integer<int>(texel[i]);
+        break;
+      case TexelKind::kShort: {
+        std::uint16_t value = 0;
+        std::memcpy(&value, texel + i * sizeof value, sizeof value);
+        colour[i] = value * 255.0 / 65535;
+        break;
+      }
+      case TexelKind::kFloat: {
+        float value = 0;
+        std::memcpy(&value, texel + i * sizeof value, sizeof value);
+        colour[i] = value * 255.0;
+        break;
+      }
+    }
+  }
+  return colour;
+}
+
+/// All of an image, for the oracle; none if it cannot be decoded.
+oracle::Pixels decode(const OpenImage& open, const std::string& path) {
+  if (!open) return {};
+  try {
+    const std::unique_ptr<ImageRows> image = open(path);
+    const ImageHeader header = image->header();
+    const std::size_t texel_size = texel_bytes(header.kind), width = header.size.width;
+    std::vector<std::byte> bytes(texel_size * width * header.size.height);
+    image->read(header.size.height, bytes.data());
+    const auto kept = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
+    return [=](std::int64_t column, std::int64_t row) {
+      const auto texel = static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
+      return colour_of(header.kind, kept->data() + texel * texel_size);
+    };
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    return {};
+  }
 }
 
 oracle::Options oracle_options(const PipelineConfig& config) {
@@ -45,6 +87,10 @@ oracle::Options oracle_options(const PipelineConfig& config) {
   if (const auto size = config.texture_size) {
     options.size_option = oracle::Size{size->width, size->height};
   }
+  options.texmetro_seams = config.texmetro_seams;
+  options.image_pixels = [open = config.open_image](const std::string& path) {
+    return decode(open, path);
+  };
   options.image_size = [probe = config.probe](const std::string& path) {
     std::optional<oracle::Size> size;
     std::error_code ignored;
@@ -107,7 +153,7 @@ std::vector<std::string> contradictions(const Outcome& pipeline, const Outcome& 
     if (is_pending(key)) continue;
     if (closeness == Closeness::kCounts && want.is_number_float()) continue;
     const json got = pipeline.report->value(key, json("missing"));
-    if (agree(got, want, absolute_tolerance(key, *oracle.report))) continue;
+    if (key_agrees(key, got, *oracle.report)) continue;
     texts.push_back(key + " is " + got.dump() + ", the oracle has " + want.dump());
   }
   return texts;

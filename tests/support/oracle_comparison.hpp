@@ -1,20 +1,17 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tests/support/pipeline_run.hpp"
+#include "tests/support/procedural_images.hpp"
 
 namespace atlasgauge {
 
-/// Sizes of the readable images by file name.
-using ImageSizes = std::map<std::string, std::pair<std::uint32_t, std::uint32_t>>;
-
+/// Of images that cannot be decoded.
 ImageProbe probe_of(ImageSizes sizes);
 
 /// The report of a model, or the text by which it was refused as bad input.
@@ -27,7 +24,7 @@ struct Outcome {
 /// What the pipeline makes of a model. Errors of another kind than kInput are passed on.
 Outcome pipeline_outcome(const std::string& model, const PipelineConfig& config);
 
-/// What the oracle makes of it, given the same texture size and probe.
+/// What the oracle makes of it, given the same texture size, probe and images.
 Outcome oracle_outcome(const std::string& model, const PipelineConfig& config);
 
 /// How far values that are not counts are compared.

@@ -24,6 +24,10 @@ RasterPlan raster_plan(const PipelineConfig& config) {
   return plan;
 }
 
+[[noreturn]] void refuse(const std::string& image) {
+  throw Error(ErrorKind::kInput, image, 0, "no images in this test");
+}
+
 }  // namespace
 
 PipelineResult run_pipeline(const std::string& model, const PipelineConfig& config) {
@@ -35,9 +39,7 @@ PipelineResult run_pipeline(const std::string& model, const PipelineConfig& conf
   const Engine engine{budget, scratch, workers, log};
   Warnings warnings({});
   const ImageProbe probe =
-      config.probe ? config.probe : [](const std::string& path) -> ImageHeader {
-    throw Error(ErrorKind::kInput, path, 0, "no images in this test");
-  };
+      config.probe ? config.probe : [](const std::string& path) -> ImageHeader { refuse(path); };
   MeasureSet measures(workers.count());
   const auto resolve = [&](const ObjSummary& obj) {
     return resolve_textures(model, obj.mtllib_lines, obj.material_names, config.texture_size, probe,
@@ -45,6 +47,13 @@ PipelineResult run_pipeline(const std::string& model, const PipelineConfig& conf
   };
   StreamOptions options;
   options.raster = raster_plan(config);
+  options.texmetro_seams = config.texmetro_seams;
+  options.open_image = config.open_image;
+  if (!config.open_image) {
+    options.open_image = [](const std::string& path) -> std::unique_ptr<ImageRows> {
+      refuse(path);
+    };
+  }
   const MeshFacts facts = stream_model(engine, model, options, warnings, resolve, measures);
   return {measures.finish(facts).to_json(), log.stages(), facts.raster, budget.peak_bytes()};
 }

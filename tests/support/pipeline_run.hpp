@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/command_line.hpp"
+#include "io/texture/image_reader.hpp"
 #include "io/texture/texture_slots.hpp"
 #include "measures/base/report.hpp"
 #include "stream/engine/stage_log.hpp"
@@ -24,7 +25,9 @@ struct PipelineConfig {
   bool both_rasters = false;                    ///< compared texel by texel; after show_modules()
   std::int64_t tile_size = 0;                   ///< 0: as the memory allows
   std::optional<ImageSize> texture_size;
-  ImageProbe probe;  ///< none: no image can be read
+  ImageProbe probe;      ///< none: no image can be read
+  OpenImage open_image;  ///< none: no image can be decoded
+  bool texmetro_seams = false;
 };
 
 struct PipelineResult {

@@ -287,9 +287,9 @@ Textures make_textures(Dice& dice) {
   static const std::vector<std::string> all = {"a.png", "b two.png", "c.png", "d.png"};
   Textures textures;
   textures.common_side = any_side(dice);
-  textures.names.assign(all.begin(), all.begin() + dice.pick<int>({0, 1, 1, 2, 3, 4}));
+  textures.names.assign(all.begin(), all.begin() + dice.pick<int>({0, 1, 2, 2, 3, 4}));
   for (const std::string& name : textures.names) {
-    if (dice.chance(0.8)) textures.images[name] = any_size(dice, textures.common_side);
+    if (dice.chance(0.9)) textures.images[name] = any_size(dice, textures.common_side);
   }
   if (dice.chance(0.5)) textures.size_option = any_size(dice, textures.common_side);
   return textures;
@@ -391,6 +391,30 @@ void close_uvs(Patch& patch) {
   });
 }
 
+bool pinch_face(PatchFace& face, size_t kept, size_t moved) {
+  const auto corner_at = [&](size_t vertex) {
+    return std::find_if(face.begin(), face.end(),
+                        [&](const PatchCorner& corner) { return corner.vertex == vertex; });
+  };
+  const auto from = corner_at(kept), to = corner_at(moved);
+  if (from == face.end() || to == face.end()) return false;
+  to->uv = from->uv;
+  return true;
+}
+
+// An edge becomes a point of the texture, on one side or on both, and then another one.
+void pinch_an_edge(Dice& dice, Patch& patch) {
+  const PatchFace& face = patch.faces[dice.below(patch.faces.size())];
+  const size_t k = dice.below(face.size());
+  size_t kept = face[k].vertex, moved = face[(k + 1) % face.size()].vertex;
+  const bool both = dice.chance(0.5);
+  for (PatchFace& other : patch.faces) {
+    if (!pinch_face(other, kept, moved)) continue;
+    if (!both) return;
+    std::swap(kept, moved);
+  }
+}
+
 struct ChartStyle {
   bool large;  // some charts are far larger than the texture
   bool wild;   // charts lie anywhere
@@ -411,6 +435,7 @@ void change_chart(Dice& dice, const ChartStyle& style, Patch& patch) {
   if (style.wild && dice.chance(0.3)) move_uvs(any_offset(dice, -3, 3, 1), patch);
   if (style.wild && dice.chance(0.1)) scale_uvs(dice.pick<double>({0x1p20, 0x1p33}), 1, patch);
   if (dice.chance(0.5)) put_on_lattice(dice, style.texture_side, patch);
+  if (dice.chance(0.3)) pinch_an_edge(dice, patch);
 }
 
 // ---- From patches to a draft ----
@@ -423,6 +448,7 @@ struct Style {
   double split;  // chance that a corner gets a vertex of its own at the same place
   double unmapped;
   size_t materials;
+  double stray;  // chance that a polygon has another material than its patch
 };
 
 Style make_style(Dice& dice, bool calm, double defect_chance) {
@@ -435,6 +461,7 @@ Style make_style(Dice& dice, bool calm, double defect_chance) {
   style.split = maybe(dice.pick<double>({0.1, 0.5, 1}));
   style.unmapped = maybe(0.3);
   style.materials = 1 + dice.below(4);
+  style.stray = dice.pick<double>({0.05, 0.05, 0.5, 0.5});
   return style;
 }
 
@@ -477,7 +504,7 @@ void add_patch(Dice& dice, const Style& style, const Patch& patch, Draft& draft)
   const UvIndex uv_index = dice.chance(style.unmapped) ? UvIndex::kNone : UvIndex::kGood;
   const size_t material = dice.below(style.materials);
   for (const PatchFace& face : patch.faces) {
-    Polygon polygon{{}, dice.chance(0.95) ? material : dice.below(style.materials)};
+    Polygon polygon{{}, dice.chance(style.stray) ? dice.below(style.materials) : material};
     for (const PatchCorner& corner : face) {
       size_t vertex = placed[corner.vertex];
       if (dice.chance(style.split)) {
@@ -628,6 +655,31 @@ void add_defects(Dice& dice, double chance, Draft& draft) {
   }
 }
 
+// ---- How far the UVs reach ----
+
+// An edge that is longer has more samples along it than can be tried in a test.
+constexpr double kFewPeriods = 64;
+// Only single UVs are beyond, so that no edge lies there within the reach of a raster.
+constexpr double kBeyondReach = 0x1p38;
+
+bool is_within_long_reach(double x) {
+  return std::abs(x) > kFewPeriods && std::abs(x) < kBeyondReach;
+}
+
+bool reaches_long(const Draft& draft) {
+  return std::any_of(draft.uvs.begin(), draft.uvs.end(), [](const UvPoint& uv) {
+    return std::any_of(uv.begin(), uv.end(), is_within_long_reach);
+  });
+}
+
+void fold_long_uvs(Draft& draft) {
+  for (UvPoint& uv : draft.uvs) {
+    for (double& x : uv) {
+      if (is_within_long_reach(x)) x = std::fmod(x, kFewPeriods);
+    }
+  }
+}
+
 // ---- Materials ----
 
 struct MaterialText {
@@ -644,7 +696,7 @@ std::string spelled_image(Dice& dice, const std::string& name) {
 std::string material_statement(Dice& dice, const std::string& name,
                                const std::vector<std::string>& images) {
   std::string text = "newmtl " + name + "\nKd 0.8 0.8 0.8\n";
-  if (images.empty() || dice.chance(0.2)) return text;
+  if (images.empty() || dice.chance(0.15)) return text;
   if (dice.chance(0.1)) text += "map_Kd " + spelled_image(dice, dice.pick(images)) + "\n";
   return text + "  map_Kd " + spelled_image(dice, dice.pick(images)) + "\n";
 }
@@ -661,8 +713,8 @@ MaterialText make_materials(Dice& dice, const std::vector<std::string>& images) 
 
 std::string library_line(Dice& dice, const std::string& mtl_name) {
   const std::string line = "mtllib " + mtl_name;
-  return dice.pick<std::string>({line, line, line, line, line, line, line, line,
-                                 "mtllib none.mtl " + mtl_name, "mtllib none.mtl", "# no mtllib"});
+  if (dice.chance(0.85)) return line;
+  return dice.pick<std::string>({"mtllib none.mtl " + mtl_name, "mtllib none.mtl", "# no mtllib"});
 }
 
 // ---- Text ----
@@ -821,10 +873,11 @@ RandomModel random_model(uint64_t seed, const RandomMeshOptions& requested) {
   Draft draft = make_draft(dice, calm, textures.common_side, options);
   add_defects(dice, options.defect_chance, draft);
   if (dice.chance(0.4)) dice.shuffle(draft.polygons);
+  if (dice.chance(0.5)) fold_long_uvs(draft);
   const MaterialText materials = make_materials(dice, textures.names);
   Writer writer(dice, draft, materials, options.defect_chance);
   return {writer.write(library_line(dice, options.mtl_name)), materials.mtl, textures.images,
-          textures.size_option};
+          textures.size_option, reaches_long(draft)};
 }
 
 std::string random_obj(uint64_t seed, const RandomMeshOptions& options) {

@@ -185,39 +185,6 @@ void report_angles(json& report, const Analysis& analysis) {
   report_statistics(report, "angle_min", angles);
 }
 
-bool is_seam(const Analysis& analysis, const std::vector<EdgeUse>& uses,
-             const std::map<int64_t, Chart>& charts) {
-  if (uses.size() != 2) return false;
-  std::array<EdgeKey, 2> uv_keys;
-  for (size_t i = 0; i < 2; ++i) {
-    const FaceFacts& face = analysis.faces[static_cast<size_t>(uses[i].face)];
-    if (charts.at(face.chart).total_absolute == 0) return false;
-    uv_keys[i] = edge_key(face.uv_vertices, uses[i].corner);
-  }
-  return uv_keys[0] != uv_keys[1];
-}
-
-bool can_be_sampled(const Analysis& analysis, const EdgeUse& use) {
-  const FaceFacts& facts = analysis.faces[static_cast<size_t>(use.face)];
-  const Face& face = analysis.model.faces[static_cast<size_t>(use.face)];
-  return facts.has_uv_triangle && !facts.uv_far &&
-         analysis.model.slots[static_cast<size_t>(*face.slot)].readable;
-}
-
-void report_seams(json& report, const Analysis& analysis, const std::map<int64_t, Chart>& charts) {
-  int64_t count = 0, unsampled = 0;
-  std::vector<double> lengths;
-  for (const auto& [edge, uses] : analysis.welded_edges) {
-    if (!is_seam(analysis, uses, charts)) continue;
-    ++count;
-    lengths.push_back(edge_length(analysis.model, edge));
-    if (!can_be_sampled(analysis, uses[0]) || !can_be_sampled(analysis, uses[1])) ++unsampled;
-  }
-  report["seam_edges"] = count;
-  report["seam_len"] = rounded(exact_sum(lengths));
-  report["seam_edges_unsampled"] = unsampled;
-}
-
 bool is_unmapped(const Face& face) {
   return std::any_of(face.uvs.begin(), face.uvs.end(),
                      [](const std::optional<Uv>& uv) { return !uv.has_value(); });
@@ -259,7 +226,6 @@ void report_atlas(json& report, const Analysis& analysis) {
   report["mapped_fraction"] = mapped_fraction(analysis);
   report_distortion(report, analysis);
   report_angles(report, analysis);
-  report_seams(report, analysis, charts);
   report_mapping_counts(report, analysis);
 }
 

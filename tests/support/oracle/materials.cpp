@@ -104,10 +104,10 @@ std::vector<std::string> library_names(const std::string& rest, const fs::path& 
 }
 
 Slot named_slot(const Material& material, const Options& options) {
-  Slot slot{material.image_name, material.image_path, std::nullopt, false};
+  Slot slot{material.image_name, material.image_path, std::nullopt, {}};
   if (options.image_size) slot.size = options.image_size(slot.path);
-  slot.readable = slot.size.has_value();
-  if (!slot.readable) slot.size = options.size_option;
+  if (slot.size && options.image_pixels) slot.pixels = options.image_pixels(slot.path);
+  if (!slot.size) slot.size = options.size_option;
   return slot;
 }
 
@@ -147,7 +147,7 @@ std::map<std::string, int64_t> make_slots(const Materials& materials, const Opti
   model.with_images = !model.slots.empty();
   model.counts_texels = model.with_images || options.size_option;
   if (!model.with_images) {
-    model.slots.push_back({"N/A", "", options.size_option.value_or(Size{1, 1}), false});
+    model.slots.push_back({"N/A", "", options.size_option.value_or(Size{1, 1}), {}});
   }
   return by_material;
 }

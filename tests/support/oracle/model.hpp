@@ -16,18 +16,27 @@ using Position = std::array<double, 3>;
 using Uv = std::array<float, 2>;
 using Triple = std::array<int64_t, 3>;
 
+// Red, green and blue, each from 0 to 255.
+using Colour = std::array<double, 3>;
+
+// The colour of a texel, rows counted from the top of the image.
+using Pixels = std::function<Colour(int64_t column, int64_t row)>;
+
 struct Options {
   std::optional<Size> size_option;
   // The size of a readable image. The path is normal, with the folder of the MTL or of the OBJ in
   // front; the file itself need not exist.
   std::function<std::optional<Size>(const std::string& path)> image_size;
+  // The pixels of a readable image; none where they cannot be decoded.
+  std::function<Pixels(const std::string& path)> image_pixels;
+  bool texmetro_seams = false;  // sample seams as TexMetro does, too
 };
 
 struct Slot {
   std::string name;
   std::string path;
   std::optional<Size> size;
-  bool readable = false;
+  Pixels pixels;  // none where there is nothing to sample
 };
 
 struct Face {

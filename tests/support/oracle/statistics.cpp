@@ -29,13 +29,6 @@ double percentile(const Samples& sorted, int percent, const Wide& total) {
 
 constexpr std::array<int, 11> kPercents = {1, 10, 20, 30, 40, 50, 60, 70, 80, 90, 99};
 
-void report_nothing(json& report, const std::string& name) {
-  for (const int percent : kPercents) report[name + "_perc" + std::to_string(percent)] = nullptr;
-  for (const char* suffix : {"_min", "_max", "_avg", "_rms", "_var", "_stddev"}) {
-    report[name + suffix] = nullptr;
-  }
-}
-
 }  // namespace
 
 double rounded(const Wide& value) {
@@ -64,22 +57,34 @@ Wide mean_square(const Samples& samples, const Wide& pivot) {
   return weighted_sum(samples, square) / total_weight(samples);
 }
 
-void report_statistics(json& report, const std::string& name, Samples samples) {
-  if (samples.empty()) return report_nothing(report, name);
-  std::sort(samples.begin(), samples.end(),
-            [](const Sample& a, const Sample& b) { return a.value < b.value; });
-  const Wide total = total_weight(samples);
-  for (const int percent : kPercents) {
-    report[name + "_perc" + std::to_string(percent)] = percentile(samples, percent, total);
+void report_moments(json& report, const std::string& name, const Samples& samples,
+                    const json& nothing) {
+  for (const char* suffix : {"_min", "_max", "_avg", "_rms", "_var", "_stddev"}) {
+    report[name + suffix] = nothing;
   }
+  if (samples.empty()) return;
+  const auto [least, most] =
+      std::minmax_element(samples.begin(), samples.end(),
+                          [](const Sample& a, const Sample& b) { return a.value < b.value; });
   const Wide mean = average(samples);
   const Wide variance = mean_square(samples, mean);
-  report[name + "_min"] = samples.front().value;
-  report[name + "_max"] = samples.back().value;
+  report[name + "_min"] = least->value;
+  report[name + "_max"] = most->value;
   report[name + "_avg"] = rounded(mean);
   report[name + "_rms"] = rounded(sqrt(mean_square(samples, 0)));
   report[name + "_var"] = rounded(variance);
   report[name + "_stddev"] = rounded(sqrt(variance));
+}
+
+void report_statistics(json& report, const std::string& name, Samples samples) {
+  std::sort(samples.begin(), samples.end(),
+            [](const Sample& a, const Sample& b) { return a.value < b.value; });
+  const Wide total = total_weight(samples);
+  for (const int percent : kPercents) {
+    json& value = report[name + "_perc" + std::to_string(percent)];
+    value = samples.empty() ? json(nullptr) : json(percentile(samples, percent, total));
+  }
+  report_moments(report, name, samples, nullptr);
 }
 
 }  // namespace atlasgauge::oracle

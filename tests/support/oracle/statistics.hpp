@@ -31,6 +31,10 @@ Wide exact_sum(const std::vector<double>& values);
 Wide average(const Samples& samples);
 Wide mean_square(const Samples& samples, const Wide& pivot);
 
+// Extremes and moments under the keys NAME_*, `nothing` without samples.
+void report_moments(nlohmann::json& report, const std::string& name, const Samples& samples,
+                    const nlohmann::json& nothing);
+
 // Percentiles, extremes and moments under the keys NAME_*; null without samples.
 void report_statistics(nlohmann::json& report, const std::string& name, Samples samples);
 
