@@ -35,6 +35,7 @@ struct MeshFacts {
   AtlasStore atlas;                   ///< empty unless distortions were asked for
   Spill<Position> vertices;           ///< by VertexId
   Spill<TextureSeams> texture_seams;  ///< by slot; of those that have any
+  bool texmetro_seams = false;        ///< seams were sampled as TexMetro does, too
 };
 
 /// Finds the slots of a model from what its OBJ says.
