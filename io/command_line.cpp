@@ -8,6 +8,7 @@
 
 #include "io/bytes.hpp"
 #include "io/error.hpp"
+#include "io/suffix.hpp"
 #include "io/table_file.hpp"
 
 namespace atlasgauge {
@@ -41,6 +42,15 @@ std::uint32_t parse_tile_texels(const std::string& text) {
   return texels;
 }
 
+void check_seams_path(const std::string& path) {
+  const bool known = has_suffix(path, ".csv") || has_suffix(path, ".jsonl") ||
+                     has_suffix(path, ".ndjson") || has_suffix(path, ".ply");
+  if (known) return;
+  throw Error(ErrorKind::kUsage, path, 0,
+              "seam edges are CSV, JSON Lines or PLY by the name; let it end in .csv, .jsonl or "
+              ".ply");
+}
+
 std::string default_tmp_dir() {
   const char* from_environment = std::getenv("TMPDIR");
   return from_environment != nullptr && *from_environment != 0 ? from_environment : "/var/tmp";
@@ -62,6 +72,12 @@ void describe(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("--maps", options.maps_dir,
                  "write a map of each texture into DIR: OpenEXR with all mip levels, and a picture")
       ->type_name("DIR");
+  app.add_option("--seams", options.seams_path,
+                 "write all seam edges to FILE: CSV (.csv), JSON Lines (.jsonl), or coloured "
+                 "segments (.ply)")
+      ->type_name("FILE");
+  app.add_flag("--texmetro-seams", options.texmetro_seams,
+               "measure seams as TexMetro does, too, to compare with its published numbers");
   app.add_option("-t,--texture-size", texts.size,
                  "texture size for models that name no image, and for images that cannot be read")
       ->type_name("WxH");
@@ -107,6 +123,7 @@ std::optional<std::uint64_t> optional_bytes(const std::string& text) {
 void check(Options& options, const Texts& texts) {
   if (!texts.json.empty()) options.json_path = texts.json;
   if (options.charts_path) table_format(*options.charts_path);
+  if (options.seams_path) check_seams_path(*options.seams_path);
   if (options.maps_dir == "") throw Error(ErrorKind::kUsage, "--maps '' is not a folder");
   if (!texts.size.empty()) options.texture_size = parse_image_size(texts.size);
   options.memory_bytes = optional_bytes(texts.memory);

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <concepts>
@@ -12,16 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "io/error.hpp"
+#include "io/suffix.hpp"
 
 namespace atlasgauge {
 namespace {
-
-bool ends_with(const std::string& path, std::string_view suffix) {
-  if (path.size() < suffix.size()) return false;
-  return std::equal(
-      suffix.begin(), suffix.end(), path.end() - std::ssize(suffix),
-      [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
-}
 
 std::string json_text(std::string_view text) {
   constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
@@ -79,8 +71,8 @@ struct JsonValues {
 }  // namespace
 
 TableFormat table_format(const std::string& path) {
-  if (ends_with(path, ".csv")) return TableFormat::kCsv;
-  if (ends_with(path, ".jsonl") || ends_with(path, ".ndjson")) return TableFormat::kJsonLines;
+  if (has_suffix(path, ".csv")) return TableFormat::kCsv;
+  if (has_suffix(path, ".jsonl") || has_suffix(path, ".ndjson")) return TableFormat::kJsonLines;
   throw Error(ErrorKind::kUsage, path, 0,
               "a table is CSV or JSON Lines by its name; let it end in .csv or in .jsonl");
 }

@@ -27,6 +27,7 @@
 #include "measures/estimate_text.hpp"
 #include "measures/mapping.hpp"
 #include "measures/process.hpp"
+#include "measures/seam_file.hpp"
 #include "measures/summary.hpp"
 #include "stream/engine/engine.hpp"
 #include "stream/estimate.hpp"
@@ -130,6 +131,12 @@ void measure(const Options& options) {
     charts.emplace(*options.charts_path);
     wanted.on_chart = [&](const Chart& chart) { charts->add(chart); };
   }
+  std::unique_ptr<SeamFile> seams;
+  if (options.seams_path) {
+    seams = open_seam_file(*options.seams_path, options.texmetro_seams, engine);
+    wanted.on_seams = [&](SeamRows& rows) { seams->write(rows); };
+  }
+  wanted.texmetro_seams = options.texmetro_seams;
   if (options.maps_dir) wanted.distortion_of = distortion_of_any;
   MeshFacts facts = stream_model(engine, options.model, wanted, warnings, resolve, measures);
   const Report report = measures.finish(facts);
@@ -142,6 +149,7 @@ void measure(const Options& options) {
   }
   bar.clear();
   if (charts) charts->commit();
+  if (seams) seams->commit();
   if (options.json_path) write_report(*options.json_path, report);
   write_text(options, summary_of(facts, report));
   if (options.verbose) remark(cost_of(engine, plan, facts.raster).c_str());

@@ -116,6 +116,7 @@ void add_atlas(Table& table) {
   table.row("solidity", "solidity", "1 is best");
   table.row("seam edges", "seam_edges");
   table.row("seam length", "seam_len", "model units");
+  table.row("seam discrepancy", "seam_discrepancy_avg", "of 441; 0 is best");
 }
 
 void add_distributions(Table& table) {

@@ -157,6 +157,7 @@ void stream_seams(const Engine& engine, const SeamPlan& plan, Spill<SeamCandidat
       sample_seams(engine, std::move(edges), facts.textures, frames, plan, warnings, sinks);
   facts.texture_seams = std::move(seams.textures);
   facts.seams = seams.work;
+  facts.texmetro_seams = options.texmetro_seams;
   if (!options.on_seams) return;
   LocatedSeams rows(engine, std::move(seams.edges), facts.vertices);
   options.on_seams(rows);

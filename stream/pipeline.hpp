@@ -37,6 +37,7 @@ struct MeshFacts {
   Spill<Position> vertices;           ///< by VertexId
   Spill<TextureSeams> texture_seams;  ///< by slot; of those that have any
   SeamWork seams;
+  bool texmetro_seams = false;  ///< seams were sampled as TexMetro does, too
 };
 
 /// Finds the slots of a model from what its OBJ says.

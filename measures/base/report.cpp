@@ -84,7 +84,8 @@ Keys keys_after_textures() {
           "overlap_within_chart_texels", "overlap_between_charts_texels"});
   append(keys, statistics("texel_density"));
   append(keys, statistics("chart_area"));
-  append(keys, {"thin_charts_fraction", "thin_charts_area_fraction"});
+  append(keys, {"thin_charts_fraction", "thin_charts_area_fraction", "seam_discrepancy_by_texture",
+                "worst_seams"});
   return keys;
 }
 
@@ -108,17 +109,17 @@ std::string indented(const Json& value) {
   return text;
 }
 
-/// The levels of one texture, a line each.
-std::string level_lines(const Json& levels) {
+/// An array, an element a line.
+std::string element_lines(const Json& array) {
   std::string text;
-  for (const Json& level : levels) {
-    text += (text.empty() ? "[\n  " : ",\n  ") + text_of(level);
+  for (const Json& element : array) {
+    text += (text.empty() ? "[\n  " : ",\n  ") + text_of(element);
   }
   return text.empty() ? "[]" : text + "\n ]";
 }
 
-bool is_levels(const std::string& key, const Json& value) {
-  return key.starts_with("texture_") && value.is_array();
+bool is_table(const Json& value) {
+  return value.is_array() && !value.empty() && value.front().is_object();
 }
 
 }  // namespace
@@ -166,7 +167,7 @@ void Report::write(const std::function<void(std::string_view)>& put) const {
   std::string line = "{\n ";
   visit([&](const std::string& key, const Json& value) {
     line += text_of(Json(key)) + ": ";
-    line += is_levels(key, value) ? level_lines(value) : indented(value);
+    line += is_table(value) ? element_lines(value) : indented(value);
     put(line);
     line = ",\n ";
   });

@@ -32,6 +32,8 @@ TEST(CommandLineTest, WhatIsNotGivenHasItsDefault) {
   const Options options = options_of({});
   EXPECT_FALSE(options.charts_path);
   EXPECT_FALSE(options.maps_dir);
+  EXPECT_FALSE(options.seams_path);
+  EXPECT_FALSE(options.texmetro_seams);
   EXPECT_FALSE(options.tile_texels);
   EXPECT_EQ(options.raster, RasterChoice::kScalar);
 }
@@ -46,6 +48,19 @@ TEST(CommandLineTest, ChartsInAnUnknownFormatAreRefused) {
   for (const std::string path : {"charts.txt", "-", "charts", ""}) {
     EXPECT_NE(usage_error({"--charts", path}).find(".jsonl"), std::string::npos) << path;
   }
+}
+
+TEST(CommandLineTest, SeamsAreTablesOrPly) {
+  for (const std::string path : {"a.csv", "a.JSONL", "a.ndjson", "out/a.ply", "a.Ply"}) {
+    EXPECT_EQ(options_of({"--seams", path}).seams_path, path);
+  }
+  for (const std::string path : {"seams.txt", "-", "ply", "", "a.ply.gz"}) {
+    EXPECT_NE(usage_error({"--seams", path}).find(".ply"), std::string::npos) << path;
+  }
+}
+
+TEST(CommandLineTest, TexmetroSeamsAreAskedFor) {
+  EXPECT_TRUE(options_of({"--texmetro-seams"}).texmetro_seams);
 }
 
 TEST(CommandLineTest, MapsInNoFolderAreRefused) {
@@ -68,7 +83,8 @@ TEST(CommandLineTest, TileSizeIsAPowerOfTwo) {
 
 TEST(CommandLineTest, HelpNamesTheOutputs) {
   const std::string help = parse_command_line({"--help"}).text.value_or("");
-  for (const char* option : {"--charts FILE", "--maps DIR", "--raster scalar|osmesa"}) {
+  for (const char* option : {"--charts FILE", "--seams FILE", "--texmetro-seams", "--maps DIR",
+                             "--raster scalar|osmesa"}) {
     EXPECT_NE(help.find(option), std::string::npos) << help;
   }
 }

@@ -400,22 +400,6 @@ TEST(TriangleShapeTest, ZeroAreaIsLeftOut) {
   EXPECT_TRUE(report_of("angle_min", groups)["angle_min_avg"].is_null());
 }
 
-SeamEdge seam(double length_3d, bool sampled) {
-  SeamEdge edge;
-  edge.length_3d = length_3d;
-  edge.sampled = sampled;
-  return edge;
-}
-
-TEST(SeamsMeasureTest, CountsAndAddsLengths) {
-  Groups groups;
-  groups.seam_edges = {seam(0.5, true), seam(2, false), seam(1, true)};
-  const Json json = report_of("seams", groups);
-  EXPECT_EQ(json["seam_edges"], 3);
-  EXPECT_EQ(json["seam_len"], 3.5);
-  EXPECT_EQ(json["seam_edges_unsampled"], 1);
-}
-
 TEST(TextureUseTest, EveryFaultIsCountedOnce) {
   Triangle unmapped = three_four(1, 1), outside = three_four(2, 1), untextured = three_four(1, 1),
            unsized = three_four(1, 1), far = three_four(1, 1);

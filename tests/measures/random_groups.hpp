@@ -8,6 +8,7 @@
 
 #include "measures/base/measure.hpp"
 #include "stream/groups.hpp"
+#include "tests/support/engine_fixture.hpp"
 
 namespace atlasgauge {
 
@@ -78,22 +79,30 @@ class RandomGroups {
 
   std::uint64_t below(std::uint64_t end) { return random_() % end; }
 
+  /// Never two with the same vertices. Many are equally bad; the longest are equally long, too.
   SeamEdge seam_edge() {
     SeamEdge edge;
-    edge.v[0] = VertexId{static_cast<std::uint32_t>(below(1000))};
-    edge.v[1] = VertexId{static_cast<std::uint32_t>(1000 + below(1000))};
+    edge.v[0] = VertexId{static_cast<std::uint32_t>(below(10))};
+    edge.v[1] = VertexId{10 + seam_edges_++ % (kVertices - 10)};
     for (SeamSide& side : edge.sides) {
       side.slot = SlotId{static_cast<std::uint32_t>(below(3))};
       for (TexCoord& t : side.t) t = {static_cast<float>(number()), static_cast<float>(number())};
     }
-    edge.length_3d = number();
+    edge.length_3d = below(2) == 0 ? number() : kMostLength;
     edge.sampled = below(4) != 0;
     edge.samples = edge.sampled ? below(100) : 0;
-    if (edge.samples > 0) edge.discrepancy = static_cast<double>(below(400));
+    if (edge.samples == 0) return edge;
+    edge.discrepancy = 100 * static_cast<double>(below(5));
+    edge.texmetro_discrepancy = 441 * fraction();
     return edge;
   }
 
+  static constexpr std::uint32_t kVertices = 4096;
+
  private:
+  static constexpr double kMostLength = 0x1p30;
+
+  /// Up to kMostLength.
   double number() { return std::ldexp(1 + fraction(), static_cast<int>(below(60)) - 30); }
   double fraction() { return static_cast<double>(random_()) * 0x1p-32; }
 
@@ -140,7 +149,30 @@ class RandomGroups {
   }
 
   std::mt19937 random_;
+  std::uint32_t seam_edges_ = 0;
 };
+
+/// Where the facts of all tests keep what they have in scratch.
+inline Scratch& scratch_of_facts() {
+  static TestEngine engine({.resident_bytes = 1 << 20});
+  return engine.scratch;
+}
+
+template <class T>
+Spill<T> spill_for_facts(const std::vector<T>& records) {
+  SpillWriter<T> writer(scratch_of_facts());
+  writer.append(records);
+  return writer.finish();
+}
+
+/// Vertex v is at (v, v / 2, -v).
+inline Spill<Position> vertices_on_a_line() {
+  std::vector<Position> positions;
+  for (std::uint32_t v = 0; v < RandomGroups::kVertices; ++v) {
+    positions.push_back({1.0 * v, 0.5 * v, -1.0 * v});
+  }
+  return spill_for_facts(positions);
+}
 
 /// Facts for the end of measures, with percentiles of every distribution.
 inline MeshFacts any_facts() {
@@ -153,6 +185,8 @@ inline MeshFacts any_facts() {
   facts.box.add({1, 2, 1});
   facts.textures.slots.push_back({"image.png", "image.png", ImageSize{4, 4}, true});
   facts.textures.has_images = true;
+  facts.texmetro_seams = true;
+  facts.vertices = vertices_on_a_line();
   for (const auto& measure : all_measures()) {
     if (!measure->sampled()) continue;
     Quantiles quantiles{};

@@ -162,10 +162,11 @@ TEST_P(MeasureLawsTest, FreshIsEmptyWhateverItIsMadeFrom) {
 }
 
 TEST(AllMeasuresTest, AreThoseThatRegisterByName) {
-  EXPECT_EQ(all_names(), (std::vector<std::string>{
-                             "angle_min", "chart_area", "charts", "crumbliness", "distortion",
-                             "edges", "mapped_fraction", "mesh_size", "scaling", "seams",
-                             "texel_density", "texel_overlap", "texture_use", "topology"}));
+  EXPECT_EQ(all_names(),
+            (std::vector<std::string>{"angle_min", "chart_area", "charts", "crumbliness",
+                                      "distortion", "edges", "mapped_fraction", "mesh_size",
+                                      "scaling", "seams", "texel_density", "texel_overlap",
+                                      "texture_use", "topology", "worst_seams"}));
 }
 
 TEST(AllMeasuresTest, NoTwoSetTheSameKey) {

@@ -44,7 +44,10 @@ TEST(ReportTest, KeysComeInTheOrderOfTheSpecification) {
                                       "sf_perc1",
                                       "seam_discrepancy_avg",
                                       "crumbliness",
-                                      "vndup"};
+                                      "vndup",
+                                      "thin_charts_area_fraction",
+                                      "seam_discrepancy_by_texture",
+                                      "worst_seams"};
   for (std::size_t i = 1; i < some.size(); ++i) {
     EXPECT_LT(place_of(keys, some[i - 1]), place_of(keys, some[i])) << some[i];
   }
@@ -135,6 +138,19 @@ TEST(ReportTest, WritesWhatItsJsonSaysWithALineForEveryLevel) {
   report.write([&](std::string_view piece) { text += piece; });
   EXPECT_EQ(Json::parse(text), report.to_json());
   EXPECT_NE(text.find(" \"texture_0\": [\n  {\"rw\":2},\n  {\"rw\":1}\n ],\n \"texture_1\": [],\n"),
+            std::string::npos)
+      << text;
+}
+
+TEST(ReportTest, WritesALineForEveryObjectOfAnyList) {
+  Report report;
+  report.set("worst_seams", Json::array({{{"from", Json::array({1.5, 2})}}, {{"from", 3}}}));
+  report.set("seam_discrepancy_by_texture", Json::array());
+  std::string text;
+  report.write([&](std::string_view piece) { text += piece; });
+  EXPECT_EQ(Json::parse(text), report.to_json());
+  EXPECT_NE(text.find(" \"seam_discrepancy_by_texture\": [],\n"
+                      " \"worst_seams\": [\n  {\"from\":[1.5,2]},\n  {\"from\":3}\n ]\n}"),
             std::string::npos)
       << text;
 }

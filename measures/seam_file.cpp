@@ -1,0 +1,15 @@
+#include "measures/seam_file.hpp"
+
+#include "io/suffix.hpp"
+#include "measures/seam_picture.hpp"
+#include "measures/seam_table.hpp"
+
+namespace atlasgauge {
+
+std::unique_ptr<SeamFile> open_seam_file(const std::string& path, bool texmetro,
+                                         const Engine& engine) {
+  if (has_suffix(path, ".ply")) return std::make_unique<SeamPicture>(path, engine);
+  return std::make_unique<SeamTable>(path, texmetro);
+}
+
+}  // namespace atlasgauge
