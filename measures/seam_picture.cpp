@@ -20,8 +20,6 @@ Segment segment_of(const LocatedSeam& seam) {
 }  // namespace
 
 void SeamPicture::write(SeamRows& rows) {
-  const Reservation memory =
-      engine_.budget.reserve(engine_.block_bytes(), "the colours of seam edges");
   file_.begin(rows.count());
   SpillWriter<Rgb> kept(engine_.scratch);
   for (LocatedSeam seam; rows.read(seam);) {

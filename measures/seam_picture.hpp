@@ -13,7 +13,9 @@ class SeamPicture : public SeamFile {
  public:
   /// Throws Error(kResource).
   SeamPicture(const std::string& path, const Engine& engine)
-      : engine_(engine), file_(path, "discrepancy") {}
+      : engine_(engine),
+        memory_(engine.budget.reserve(engine.block_bytes(), "the colours of seam edges")),
+        file_(path, "discrepancy") {}
 
   /// Keeps the colours in scratch from the ends of the segments to their edges.
   void write(SeamRows& rows) override;
@@ -21,6 +23,7 @@ class SeamPicture : public SeamFile {
 
  private:
   const Engine& engine_;
+  const Reservation memory_;  ///< made early: who reads the rows may take all that is left
   PlySegments file_;
 };
 

@@ -166,6 +166,15 @@ TEST_F(SeamTableTest, ColoursOfManyEdgesPassThroughScratch) {
   EXPECT_GT(engine_.scratch.written_bytes(), 0U);
 }
 
+TEST_F(SeamTableTest, PlyIsWrittenWhenTheRowsTookAllMemory) {
+  const auto file = open_seam_file(path("t.ply"), false, engine_);
+  const Reservation rest = engine_.budget.reserve(engine_.budget.free_bytes(), "rows");
+  ListedSeams rows(three_seams());
+  file->write(rows);
+  file->commit();
+  EXPECT_FALSE(content_of(path("t.ply")).empty());
+}
+
 TEST_F(SeamTableTest, UnwritableTargetIsFoundBeforeTheWork) {
   for (const char* name : {"none/t.csv", "none/t.ply"}) {
     EXPECT_THROW(open_seam_file(path(name), false, engine_), Error) << name;
