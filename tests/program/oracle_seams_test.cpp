@@ -17,7 +17,6 @@ namespace {
 
 using nlohmann::json;
 using oracle::Colour;
-using oracle::Face;
 using oracle::Model;
 using oracle::Pixels;
 using oracle::Position;

@@ -720,7 +720,7 @@ MaterialText make_materials(Dice& dice, const std::vector<std::string>& images) 
 }
 
 std::string library_line(Dice& dice, const std::string& mtl_name) {
-  const std::string line = "mtllib " + mtl_name;
+  std::string line = "mtllib " + mtl_name;
   if (dice.chance(0.85)) return line;
   return dice.pick<std::string>({"mtllib none.mtl " + mtl_name, "mtllib none.mtl", "# no mtllib"});
 }
