@@ -168,9 +168,9 @@ std::string cost_of(const Engine& engine, const MemoryPlan& plan, const MeshFact
   text +=
       fmt::format("raster: {} tiles of up to {} texels, triangles drawn: {} scalar, {} osmesa\n",
                   raster.tiles, raster.tile_size, raster.triangles.scalar, raster.triangles.osmesa);
-  text += fmt::format("seams: {} images decoded, {} texels, {} sample pairs\n",
-                      facts.seams.images_decoded, facts.seams.texels_decoded,
-                      facts.seams.sample_pairs);
+  text +=
+      fmt::format("seams: {} images decoded, {} texels, {} sample pairs\n",
+                  facts.seams.images_decoded, facts.seams.texels_decoded, facts.seams.sample_pairs);
   line("memory limit", plan.limit_bytes, plan.origin);
   line("engine budget", engine.budget.limit_bytes(), "");
   line("peak resident", peak_resident_bytes(), "");

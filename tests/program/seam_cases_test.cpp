@@ -114,7 +114,7 @@ class SeamCaseTest : public testing::TestWithParam<PlaneModel::Measure> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Oracle, SeamCaseTest, testing::Values(oracle_outcome));
+INSTANTIATE_TEST_SUITE_P(Both, SeamCaseTest, testing::Values(oracle_outcome, pipeline_outcome));
 
 /// Rises by 20, 8 and 5 a unit of length, over some texels.
 Colour linear(const Point& p) {

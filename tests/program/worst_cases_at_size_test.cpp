@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/answers.hpp"
 #include "bench/worst_cases.hpp"
 #include "io/error.hpp"
-#include "tests/support/answers.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tests/support/worst_case_names.hpp"
@@ -62,7 +62,7 @@ class WorstCasesAtSizeTest : public testing::TestWithParam<WorstCase> {
 
   std::vector<std::string> wrong_answers() const {
     const nlohmann::json report = nlohmann::json::parse(std::ifstream(dir_.path() / "report.json"));
-    return measured_differences(report, worst_case_answers(GetParam(), size_));
+    return differences(report, worst_case_answers(GetParam(), size_));
   }
 
   void print_row(const ProgramResult& run) const {

@@ -28,8 +28,8 @@ struct Seam {
   std::optional<double> texmetro_discrepancy;  // by TexMetro's samples; none without any
 };
 
-// In ascending order of vertices; sides in ascending order of slot and UVs. Sampled as TexMetro does,
-// too, if that is asked for.
+// In ascending order of vertices; sides in ascending order of slot and UVs. Sampled as TexMetro
+// does, too, if that is asked for.
 std::vector<Seam> find_seams(const Analysis& analysis, bool texmetro);
 
 }  // namespace atlasgauge::oracle
