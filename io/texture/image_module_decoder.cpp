@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "io/texture/image_module_exr.hpp"
 #include "io/texture/image_module_memory.hpp"
 #include "io/texture/image_module_whole.hpp"
 
@@ -28,11 +29,14 @@ bool use_no_threads() {
 std::unique_ptr<OIIO::ImageInput> open_with_library(const std::string& path) {
   static const bool without_threads = use_no_threads();
   static_cast<void>(without_threads);
+  check_exr_tables(path);
   OIIO::ImageSpec as_stored;
   as_stored.attribute("oiio:UnassociatedAlpha", 1);
   std::unique_ptr<OIIO::ImageInput> image = OIIO::ImageInput::open(path, &as_stored);
   const std::string error = last_line(OIIO::geterror());
   if (!image) fail(error.empty() ? "the file is no image of a known format" : error);
+  // Any file by its name, be there one or not.
+  if (std::string(image->format_name()) == "null") fail("the file is no image");
   image->threads(1);
   return image;
 }
@@ -57,9 +61,17 @@ OIIO::TypeDesc type_of(TexelKind kind) {
   return OIIO::TypeDesc::FLOAT;
 }
 
+/// -1 if there is none. Some readers name fewer channels than there are.
+int channel_of(const OIIO::ImageSpec& spec, const char* name) {
+  const auto& names = spec.channelnames;
+  const auto found = std::find(names.begin(), names.end(), name);
+  const auto index = static_cast<int>(found - names.begin());
+  return found == names.end() || index >= spec.nchannels ? -1 : index;
+}
+
 ColourChannels colours_of(const OIIO::ImageSpec& spec) {
   if (spec.nchannels < 3) return {.of = {0, 0, 0}, .begin = 0, .end = 1};
-  std::array<int, 3> of = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
+  std::array<int, 3> of = {channel_of(spec, "R"), channel_of(spec, "G"), channel_of(spec, "B")};
   const auto [least, most] = std::minmax_element(of.begin(), of.end());
   if (*least < 0) return {.of = {0, 1, 2}, .begin = 0, .end = 3};
   const int begin = *least;
@@ -82,13 +94,16 @@ Decoder::Decoder(const char* path) : path_(path) {
   const std::optional<ImageHeader> whole = header_of_image_held_whole(path_);
   if (whole) {
     header_ = *whole;
+    header_.decoder_bytes +=
+        state_bytes(std::uint64_t{header_.size.width} * texel_bytes(header_.kind));
     return;
   }
   open();
-  header_ = {
-      .size = {static_cast<std::uint32_t>(spec_.width), static_cast<std::uint32_t>(spec_.height)},
-      .kind = kind_of(spec_),
-      .decoder_bytes = decoder_bytes(path_, image_->format_name(), spec_)};
+  header_.size = {static_cast<std::uint32_t>(spec_.width),
+                  static_cast<std::uint32_t>(spec_.height)};
+  header_.kind = kind_of(spec_);
+  header_.decoder_bytes =
+      decoder_bytes(path_, image_->format_name(), spec_, channel_bytes(header_.kind));
 }
 
 void Decoder::open() {
@@ -120,12 +135,16 @@ void Decoder::read(std::uint32_t rows, std::byte* to) {
   }
 }
 
+/// Bytes of a texel with all channels that are read.
+std::size_t Decoder::channel_bytes(TexelKind kind) const {
+  return static_cast<std::size_t>(channels_.end - channels_.begin) * component_bytes(kind);
+}
+
 void Decoder::read_scanlines(std::uint32_t rows, std::byte* to) {
   const std::size_t texels = std::size_t{header_.size.width} * rows;
   const bool direct = are_rgb(channels_);
   if (!direct) {
-    channel_rows_.resize(texels * static_cast<std::size_t>(channels_.end - channels_.begin) *
-                         component_bytes(header_.kind));
+    channel_rows_.resize(texels * channel_bytes(header_.kind));
   }
   const int first = spec_.y + static_cast<int>(next_row_);
   check(image_->read_scanlines(0, 0, first, first + static_cast<int>(rows), spec_.z,
@@ -139,9 +158,7 @@ void Decoder::read_tiles() {
   const int rows = std::min(spec_.tile_height, spec_.height - static_cast<int>(next_row_));
   const int slices = std::clamp(spec_.tile_depth, 1, std::max(spec_.depth, 1));
   tile_rows_.resize(static_cast<std::size_t>(spec_.width) * static_cast<std::size_t>(rows) *
-                    static_cast<std::size_t>(slices) *
-                    static_cast<std::size_t>(channels_.end - channels_.begin) *
-                    component_bytes(header_.kind));
+                    static_cast<std::size_t>(slices) * channel_bytes(header_.kind));
   const int first = spec_.y + static_cast<int>(next_row_);
   check(image_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, first, first + rows, spec_.z,
                            spec_.z + slices, channels_.begin, channels_.end, type_of(header_.kind),
@@ -155,9 +172,7 @@ std::uint32_t Decoder::copy_from_tiles(std::uint32_t rows, std::byte* to) {
   const auto tile_height = static_cast<std::uint32_t>(spec_.tile_height);
   const std::uint32_t row_in_tile = next_row_ % tile_height;
   const std::uint32_t copied = std::min(rows, tile_rows_end_ - next_row_);
-  const std::size_t row_bytes = std::size_t{header_.size.width} *
-                                static_cast<std::size_t>(channels_.end - channels_.begin) *
-                                component_bytes(header_.kind);
+  const std::size_t row_bytes = std::size_t{header_.size.width} * channel_bytes(header_.kind);
   spread(tile_rows_.data() + row_in_tile * row_bytes, std::size_t{header_.size.width} * copied, to);
   return copied;
 }
@@ -165,7 +180,7 @@ std::uint32_t Decoder::copy_from_tiles(std::uint32_t rows, std::byte* to) {
 /// Picks red, green and blue from the channels that are read.
 void Decoder::spread(const std::byte* from, std::size_t texels, std::byte* to) const {
   const std::size_t bytes = component_bytes(header_.kind);
-  const std::size_t step = static_cast<std::size_t>(channels_.end - channels_.begin) * bytes;
+  const std::size_t step = channel_bytes(header_.kind);
   for (std::size_t texel = 0; texel < texels; ++texel, from += step) {
     for (const int channel : channels_.of) {
       std::memcpy(to, from + static_cast<std::size_t>(channel) * bytes, bytes);

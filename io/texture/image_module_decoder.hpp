@@ -30,7 +30,7 @@ class Decoder {
 
  private:
   void open();
-  void read_band(std::uint32_t rows, std::byte* to);
+  std::size_t channel_bytes(TexelKind kind) const;
   void read_scanlines(std::uint32_t rows, std::byte* to);
   void read_tiles();
   std::uint32_t copy_from_tiles(std::uint32_t rows, std::byte* to);
