@@ -80,8 +80,24 @@ ColourChannels colours_of(const OIIO::ImageSpec& spec) {
   return {.of = of, .begin = begin, .end = end};
 }
 
+/// These readers know no other colours than those multiplied by alpha, or none where alpha is 0.
+bool loses_colours(const OIIO::ImageInput& image) {
+  const std::string format = image.format_name();
+  return image.spec().nchannels == 4 && (format == "webp" || format == "gif");
+}
+
 bool are_rgb(const ColourChannels& channels) {
   return channels.of == std::array<int, 3>{0, 1, 2} && channels.end - channels.begin == 3;
+}
+
+void check_opaque(const std::vector<std::byte>& rgba) {
+  for (std::size_t alpha = 3; alpha < rgba.size(); alpha += 4) {
+    if (rgba[alpha] != std::byte{255}) {
+      fail(
+          "it is transparent in places, where its colours cannot be read; "
+          "save it as PNG or without transparency");
+    }
+  }
 }
 
 std::size_t component_bytes(TexelKind kind) {
@@ -111,6 +127,8 @@ void Decoder::open() {
   spec_ = image_->spec();
   check_spec(spec_);
   channels_ = colours_of(spec_);
+  must_be_opaque_ = loses_colours(*image_);
+  if (must_be_opaque_) channels_ = {.of = {0, 1, 2}, .begin = 0, .end = 4};
 }
 
 void Decoder::read(std::uint32_t rows, std::byte* to) {
@@ -150,7 +168,9 @@ void Decoder::read_scanlines(std::uint32_t rows, std::byte* to) {
   check(image_->read_scanlines(0, 0, first, first + static_cast<int>(rows), spec_.z,
                                channels_.begin, channels_.end, type_of(header_.kind),
                                direct ? to : channel_rows_.data()));
-  if (!direct) spread(channel_rows_.data(), texels, to);
+  if (direct) return;
+  if (must_be_opaque_) check_opaque(channel_rows_);
+  spread(channel_rows_.data(), texels, to);
 }
 
 /// Reads the row of tiles that begins with the next row; of volumes, the first slice counts.
