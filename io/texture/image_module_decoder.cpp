@@ -1,11 +1,16 @@
 #include "io/texture/image_module_decoder.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 
 #include "io/texture/image_module_exr.hpp"
+#include "io/texture/image_module_faults.hpp"
 #include "io/texture/image_module_memory.hpp"
 #include "io/texture/image_module_whole.hpp"
 
@@ -26,17 +31,45 @@ bool use_no_threads() {
   return OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
 }
 
+/// Tried in this order, by the content of the file. The library knows more formats: of films, of
+/// medicine and of cameras, none of textures, with readers that crash on damaged files.
+constexpr std::array<const char*, 16> kFormats = {
+    "png", "jpeg", "tiff", "openexr", "bmp", "webp", "gif",      "hdr",
+    "psd", "dds",  "pnm",  "sgi",     "rla", "heif", "jpeg2000", "targa"};
+
+void check_readable(const std::string& path) {
+  if (std::ifstream(path).good()) return;
+  fail(std::error_code(errno, std::generic_category()).message());
+}
+
+OIIO::ImageSpec as_stored() {
+  OIIO::ImageSpec settings;
+  settings.attribute("oiio:UnassociatedAlpha", 1);
+  return settings;
+}
+
+/// Some readers do not know files that they can read; the error is that of one which knows it.
+std::unique_ptr<OIIO::ImageInput> open_in_any_format(const std::string& path) {
+  std::string error;
+  for (const char* format : kFormats) {
+    std::unique_ptr<OIIO::ImageInput> image = OIIO::ImageInput::create(format);
+    if (!image) continue;
+    const bool is_known = image->valid_file(path);
+    OIIO::ImageSpec spec;
+    if (image->open(path, spec, as_stored())) return image;
+    const std::string fault = last_line(image->geterror());
+    if (is_known && error.empty()) error = fault;
+  }
+  fail(error.empty() ? "the file is no image of a known format" : error);
+}
+
 std::unique_ptr<OIIO::ImageInput> open_with_library(const std::string& path) {
   static const bool without_threads = use_no_threads();
   static_cast<void>(without_threads);
+  check_readable(path);
   check_exr_tables(path);
-  OIIO::ImageSpec as_stored;
-  as_stored.attribute("oiio:UnassociatedAlpha", 1);
-  std::unique_ptr<OIIO::ImageInput> image = OIIO::ImageInput::open(path, &as_stored);
-  const std::string error = last_line(OIIO::geterror());
-  if (!image) fail(error.empty() ? "the file is no image of a known format" : error);
-  // Any file by its name, be there one or not.
-  if (std::string(image->format_name()) == "null") fail("the file is no image");
+  check_header_faults(path);
+  std::unique_ptr<OIIO::ImageInput> image = open_in_any_format(path);
   image->threads(1);
   return image;
 }

@@ -25,6 +25,10 @@ struct Part {
   std::uint64_t tile_height = 0;
 };
 
+[[noreturn]] void fail(const char* text) {
+  throw std::runtime_error(text);
+}
+
 std::uint64_t extent(std::uint32_t least, std::uint32_t most) {
   const auto last = static_cast<std::int32_t>(most);
   const auto first = static_cast<std::int32_t>(least);
@@ -39,12 +43,14 @@ void read_data_window(HeaderBytes& file, Part& part) {
 }
 
 /// False at the end of the header of the part.
-bool read_attribute(HeaderBytes& file, Part& part) {
+bool read_attribute(HeaderBytes& file, std::uint64_t file_bytes, Part& part) {
   const std::string name = file.text_to_zero(kMostNameBytes);
   if (name.empty()) return false;
   file.text_to_zero(kMostNameBytes);  // type
   const std::uint32_t bytes = file.little_endian(4);
+  if (file.ended()) return false;
   const std::uint64_t start = file.offset();
+  if (bytes > file_bytes - start) fail("an attribute of its header is longer than the file");
   if (name == "dataWindow") read_data_window(file, part);
   if (name == "compression") {
     part.block_rows = kBlockRows[std::min<std::size_t>(file.byte(), kBlockRows.size() - 1)];
@@ -72,14 +78,13 @@ void check_exr_tables(const std::string& path) {
   HeaderBytes file(path);
   if (file.little_endian(4) != kMagic) return;
   const bool several_parts = (file.little_endian(4) & kMultiPart) != 0;
-  const std::uint64_t file_blocks = file.file_bytes() / 8;  // as offsets in the table
+  const std::uint64_t file_bytes = file.file_bytes();
   while (!file.ended()) {
     Part part;
     bool empty = true;
-    while (read_attribute(file, part)) empty = false;
-    if (blocks(part) > file_blocks) {
-      throw std::runtime_error("its header names more rows than the file holds");
-    }
+    while (read_attribute(file, file_bytes, part)) empty = false;
+    // The table has eight bytes a block.
+    if (blocks(part) > file_bytes / 8) fail("its header names more rows than the file holds");
     if (empty || !several_parts) return;
   }
 }
