@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "io/texture/image_module_bytes.hpp"
 #include "io/texture/image_module_exr.hpp"
 #include "io/texture/image_module_faults.hpp"
 #include "io/texture/image_module_memory.hpp"
@@ -51,7 +52,9 @@ OIIO::ImageSpec as_stored() {
 /// Some readers do not know files that they can read; the error is that of one which knows it.
 std::unique_ptr<OIIO::ImageInput> open_in_any_format(const std::string& path) {
   std::string error;
-  for (const char* format : kFormats) {
+  const bool may_be_netpbm = HeaderBytes(path).byte() == 'P';
+  for (const std::string format : kFormats) {
+    if (format == "pnm" && !may_be_netpbm) continue;  // its reader reads all files whole
     std::unique_ptr<OIIO::ImageInput> image = OIIO::ImageInput::create(format);
     if (!image) continue;
     const bool is_known = image->valid_file(path);
