@@ -30,7 +30,7 @@ class Decoder {
 
  private:
   void open();
-  void read_band(std::uint32_t rows, std::byte* to);
+  std::size_t channel_bytes(TexelKind kind) const;
   void read_scanlines(std::uint32_t rows, std::byte* to);
   void read_tiles();
   std::uint32_t copy_from_tiles(std::uint32_t rows, std::byte* to);
@@ -42,6 +42,7 @@ class Decoder {
   std::unique_ptr<OIIO::ImageInput> image_;  ///< null where opening takes memory: until it is read
   OIIO::ImageSpec spec_;
   ColourChannels channels_;
+  bool must_be_opaque_ = false;
   std::uint32_t next_row_ = 0;
   std::vector<std::byte> channel_rows_;  ///< where channels are not red, green and blue alone
   std::vector<std::byte> tile_rows_;     ///< a row of tiles, with the channels that are read

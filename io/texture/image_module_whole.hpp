@@ -7,8 +7,8 @@
 
 namespace atlasgauge {
 
-/// The header of an image that the library would decode as a whole already to tell its header:
-/// then the library need not be asked. None for all others.
+/// The header of an image that the library would read as a whole already to tell its header, which
+/// it is therefore not asked for. `decoder_bytes` is what it will hold. None for all others.
 std::optional<ImageHeader> header_of_image_held_whole(const std::string& path);
 
 }  // namespace atlasgauge

@@ -30,7 +30,7 @@ class ModuleTest : public ::testing::Test {
 
 TEST_F(ModuleTest, FindsWhatAModuleExports) {
   const Module module{kImageModuleFile, "reads images", "install it"};
-  EXPECT_NE(module_symbol(module, kImageSizeSymbol), nullptr);
+  EXPECT_NE(module_symbol(module, kReadImageHeaderSymbol), nullptr);
 }
 
 TEST_F(ModuleTest, AModuleThatIsNowhereIsAnErrorThatSaysWhatToDo) {
