@@ -46,6 +46,11 @@ std::string text_of(const ModelGuess& guess, const CostEstimate& cost, const Mem
   line("faces", count_of(guess.faces), std::string(source_of(guess)));
   line("vertices", count_of(guess.positions), "");
   line("texture coordinates", count_of(guess.texcoords), "");
+  if (guess.images > 0) {
+    line("images", count_of(static_cast<double>(guess.images)),
+         fmt::format("{} of scratch when decoded",
+                     format_bytes(static_cast<std::uint64_t>(guess.decoded_bytes))));
+  }
   line("memory, at its peak", format_bytes(cost.resident_bytes),
        fmt::format("limit {} ({})", format_bytes(plan.limit_bytes), plan.origin));
   line("scratch, at its peak", format_bytes(cost.scratch_bytes),
@@ -61,6 +66,8 @@ Json json_of(const ModelGuess& guess, const CostEstimate& cost, const MemoryPlan
   return {{"faces", whole(guess.faces)},
           {"positions", whole(guess.positions)},
           {"texcoords", whole(guess.texcoords)},
+          {"images", guess.images},
+          {"decoded_bytes", whole(guess.decoded_bytes)},
           {"counted", guess.is_whole},
           {"reliable", guess.is_reliable},
           {"memory_bytes", cost.resident_bytes},

@@ -80,7 +80,7 @@ void write_text(const Options& options, const std::string& text) {
 void estimate(const Options& options) {
   if (options.json_path) check_writable(*options.json_path);
   const MemoryPlan plan = plan_for(options);
-  const ModelGuess guess = guess_model(options.model);
+  const ModelGuess guess = guess_model(options.model, read_image_header);
   const CostEstimate cost = estimate_cost(guess, plan);
   if (options.json_path) write_file(*options.json_path, json_of(guess, cost, plan).dump(1) + "\n");
   write_text(options, text_of(guess, cost, plan));
@@ -105,7 +105,7 @@ void measure(const Options& options) {
   if (options.json_path) check_writable(*options.json_path);
   if (options.maps_dir) make_output_folder(*options.maps_dir);
   const MemoryPlan plan = plan_for(options);
-  require_resources_for(options.model, plan, options.tmp_dir);
+  require_resources_for(options.model, plan, options.tmp_dir, read_image_header);
   const Workers workers(plan.workers);
   MemoryBudget budget(plan.engine_bytes);
   Scratch scratch({options.tmp_dir, plan.block_bytes, plan.resident_bytes}, budget);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -24,6 +25,8 @@
 #include "stream/mesh/records.hpp"
 #include "stream/raster/bin_triangle.hpp"
 #include "stream/raster/tile_size.hpp"
+#include "stream/seams/decode.hpp"
+#include "stream/seams/texel_lookup.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -40,8 +43,8 @@ constexpr double kTouched = 0.8;
 /// Blocks that stages have begun, and fill or not.
 constexpr std::uint64_t kOpenBlocks = 8;
 
-/// Textures are taken for large: their sizes would cost the image library.
-constexpr std::int64_t kTextureSide = 4096;
+/// Of textures that are not images.
+constexpr double kUsualTextureSide = 4096;
 
 /// Estimates may be wrong by this factor; only what is beyond it is refused.
 constexpr double kTolerance = 1.5;
@@ -81,16 +84,25 @@ class PageCounter {
   std::unordered_set<std::size_t> positions_, texcoords_;
 };
 
-/// Whether the libraries of a model name an image that is there.
-bool reads_images(const std::string& path, const std::vector<std::string>& mtllib_lines) {
-  bool read = false;
-  const ImageProbe probe = [&](const std::string&) {
-    read = true;
-    return ImageHeader{.size = {1, 1}};
-  };
+void add_image(const TextureSlot& slot, ModelGuess& guess) {
+  const double width = slot.size->width, height = slot.size->height;
+  const ImageNeed need = image_need(slot, 0);
+  ++guess.images;
+  guess.texels += width * height;
+  guess.largest_side_texels = std::max({guess.largest_side_texels, width, height});
+  guess.decoded_bytes += static_cast<double>(need.scratch_bytes);
+  guess.decoding_bytes = std::max(guess.decoding_bytes, static_cast<double>(need.memory_bytes));
+}
+
+/// Of all images that the libraries name, used or not.
+void add_images(const std::string& path, const std::vector<std::string>& mtllib_lines,
+                const ImageProbe& probe, ModelGuess& guess) {
   Warnings unheard([](const std::string&) {});
-  resolve_textures(path, mtllib_lines, {}, std::nullopt, probe, unheard);
-  return read;
+  const TextureSlots textures =
+      resolve_textures(path, mtllib_lines, {}, std::nullopt, probe, unheard);
+  for (const TextureSlot& slot : textures.slots) {
+    if (slot.readable) add_image(slot, guess);
+  }
 }
 
 /// Scales what the beginning of a text held up to the whole.
@@ -112,6 +124,21 @@ void extrapolate(ModelGuess& guess, double sampled_bytes) {
   guess.faces = kFacesPerVertex * guess.positions;
 }
 
+/// Where charts meet, texture coordinates are doubled: about one edge for each of them lies on a
+/// seam. The texels of a triangle are about half of a square of its edges, on a texture half full.
+struct SeamGuess {
+  explicit SeamGuess(const ModelGuess& guess)
+      : edges(guess.images == 0 ? 0 : std::max(0.0, guess.texcoords - guess.positions)),
+        length_texels(guess.faces > 0 ? std::sqrt(guess.texels / guess.faces) : 0) {}
+  double sample_pairs() const { return edges * 5 * (length_texels + 0.5); }
+  double texel_bytes() const {
+    constexpr double kCrossings = 1.27;  // of columns and rows, by a texel in a random direction
+    return edges * 2 * (1 + kCrossings * length_texels) * sizeof(TexelAnswer);
+  }
+
+  double edges, length_texels;
+};
+
 /// What a stage keeps in scratch, and the memory it would work with if there were enough.
 struct StageNeed {
   double scratch_bytes;
@@ -119,43 +146,55 @@ struct StageNeed {
 };
 
 /// The stages that need most; the records are those of the stages' own files.
-std::vector<StageNeed> stage_needs(const ModelGuess& guess, double tiles_bytes) {
+std::vector<StageNeed> stage_needs(const ModelGuess& guess, const MemoryPlan& plan,
+                                   double tiles_bytes) {
   const double v = guess.positions;
   const double t = guess.texcoords;
   const double f = guess.faces;
-  const double tables = v * sizeof(Position) + t * sizeof(TexCoord);
+  const double positions = v * sizeof(Position);
+  const double tables = positions + t * sizeof(TexCoord);
   const double model = tables + f * sizeof(FaceRecord);
   const double half_edges = 3 * f * sizeof(HalfEdge);
   // The smallest angle, and where there are UVs distortion and scaling.
   const double samples = f * sizeof(Sample) * (t > 0 ? 3 : 1);
-  const double kept = f * (sizeof(FaceRecord) + sizeof(FaceFacts) + sizeof(AtlasFace)) + samples;
+  const double kept =
+      f * (sizeof(FaceRecord) + sizeof(FaceFacts) + sizeof(AtlasFace)) + samples + positions;
   const double placed = v * (sizeof(Position) + sizeof(VertexId) + 4);
+  const SeamGuess seams(guess);
+  const double seam_bytes = seams.edges * sizeof(SeamCandidate);
+  const double rest = positions + samples + seam_bytes;
   return {
-      {model + placed, 3 * placed},                    // weld: table at most half full
-      {tables + kept + half_edges, tables},            // triangles
-      {kept + half_edges, 2 * half_edges},             // edges: loaded and sorted
-      {kept + 3 * f * sizeof(Link) + 36 * f, 72 * f},  // stars: three corners a face
-      {tables + f * 8, v * 8},                         // labels of vertices
-      {samples + 3 * f * sizeof(BinTriangle),
+      {model + placed, 3 * placed},                      // weld: table at most half full
+      {tables - positions + kept + half_edges, tables},  // triangles
+      {kept + half_edges, 2 * half_edges},               // edges: loaded and sorted
+      {kept + 3 * f * sizeof(Link) + 36 * f, 72 * f},    // stars: three corners a face
+      {tables + f * 8, v * 8},                           // labels of vertices
+      {rest + 3 * f * sizeof(BinTriangle),
        tiles_bytes + 2 * f * sizeof(BinTriangle)},  // raster, of two levels
+      {rest + guess.decoded_bytes,
+       static_cast<double>(plan.workers) * guess.decoding_bytes},                   // images
+      {rest + guess.decoded_bytes + seams.texel_bytes(), 2 * seams.texel_bytes()},  // seams
   };
 }
 
 /// Tiles of texels, which are drawn when the half-edges are gone.
 double tile_bytes(const ModelGuess& guess, const MemoryPlan& plan) {
   if (guess.texcoords == 0) return 0;
-  const std::int64_t size =
-      choose_tile_size(plan.engine_bytes - plan.resident_bytes, plan.workers, kTextureSide);
+  const double side = guess.images > 0 ? guess.largest_side_texels : kUsualTextureSide;
+  const std::int64_t size = choose_tile_size(plan.engine_bytes - plan.resident_bytes, plan.workers,
+                                             static_cast<std::int64_t>(side));
   return kTouched * static_cast<double>(plan.workers * pyramid_bytes(size));
 }
 
-/// Measured on a million faces and more, in nanoseconds: a byte of text, a vertex, a face, and a
-/// face whose corners must be gathered.
+/// Measured on a million faces and more, in nanoseconds: a byte of text, a vertex, a face, a face
+/// whose corners must be gathered, a texel between those of PNG and JPEG, and a sample pair.
 double cpu_seconds(const ModelGuess& guess) {
   constexpr double kByte = 1.0, kVertex = 100, kFace = 1700, kScatteredFace = 2500;
+  constexpr double kTexel = 15, kSamplePair = 150;
   constexpr double kScatteredBytes = 600;
   const double face = guess.loaded_bytes_per_face > kScatteredBytes ? kScatteredFace : kFace;
-  return 1e-9 * (kByte * guess.text_bytes + kVertex * guess.positions + face * guess.faces);
+  return 1e-9 * (kByte * guess.text_bytes + kVertex * guess.positions + face * guess.faces +
+                 kTexel * guess.texels + kSamplePair * SeamGuess(guess).sample_pairs());
 }
 
 double threads_gain(std::size_t workers) {
@@ -191,7 +230,7 @@ bool fits_by_size(const std::string& path, const MemoryPlan& plan, const std::st
 
 }  // namespace
 
-ModelGuess guess_model(const std::string& path) {
+ModelGuess guess_model(const std::string& path, const ImageProbe& probe) {
   ModelGuess guess;
   double sampled_faces = 0;
   double loaded_bytes = 0;
@@ -210,7 +249,7 @@ ModelGuess guess_model(const std::string& path) {
     extrapolate(guess, sampling.sampled_bytes);
   }
   if (sampled_faces > 0) guess.loaded_bytes_per_face = loaded_bytes / sampled_faces;
-  guess.reads_images = reads_images(path, sampling.mtllib_lines);
+  add_images(path, sampling.mtllib_lines, probe, guess);
   return guess;
 }
 
@@ -220,12 +259,12 @@ CostEstimate estimate_cost(const ModelGuess& guess, const MemoryPlan& plan) {
   double scratch = 0;
   double resident = 0;
   const auto open_blocks_bytes = static_cast<double>(kOpenBlocks * plan.block_bytes);
-  for (const StageNeed& need : stage_needs(guess, tile_bytes(guess, plan))) {
+  for (const StageNeed& need : stage_needs(guess, plan, tile_bytes(guess, plan))) {
     scratch = std::max(scratch, need.scratch_bytes);
     resident = std::max(
         resident, std::min(need.scratch_bytes, pool) + std::min(need.working_bytes, working_most));
   }
-  resident += kProgramBytes + (guess.reads_images ? kImageLibraryBytes : 0);
+  resident += kProgramBytes + (guess.images > 0 ? kImageLibraryBytes : 0);
   CostEstimate cost;
   scratch += open_blocks_bytes;
   cost.scratch_bytes = static_cast<std::uint64_t>(scratch);
@@ -255,11 +294,11 @@ void require_resources(const ModelGuess& guess, const CostEstimate& cost, const 
 }
 
 void require_resources_for(const std::string& path, const MemoryPlan& plan,
-                           const std::string& directory) {
+                           const std::string& directory, const ImageProbe& probe) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return;
   if (fits_by_size(path, plan, directory)) return;
-  const ModelGuess guess = guess_model(path);
+  const ModelGuess guess = guess_model(path, probe);
   require_resources(guess, estimate_cost(guess, plan), plan, directory);
 }
 

@@ -17,9 +17,13 @@ struct ModelGuess {
   /// Bytes of vertex tables that a cache loads for a face: tens where the file is written region by
   /// region, tens of thousands where faces name vertices in random order.
   double loaded_bytes_per_face = 0;
-  bool reads_images = false;  ///< a material names an image that exists
-  bool is_whole = false;      ///< counted, not sampled
-  bool is_reliable = true;    ///< false for a compressed model of which only the beginning was seen
+  std::uint64_t images = 0;        ///< that materials name and that can be read
+  double texels = 0;               ///< of all of them
+  double largest_side_texels = 0;  ///< of any
+  double decoded_bytes = 0;        ///< of all of them in scratch
+  double decoding_bytes = 0;       ///< memory for the one that takes most
+  bool is_whole = false;           ///< counted, not sampled
+  bool is_reliable = true;  ///< false for a compressed model of which only the beginning was seen
 };
 
 /// What a run will cost, by the sizes of the records that its stages keep. Made to be within a
@@ -32,8 +36,8 @@ struct CostEstimate {
   double wall_seconds = 0;
 };
 
-/// Reads at most 64 MiB of the model's text, and its material libraries.
-ModelGuess guess_model(const std::string& path);
+/// Reads at most 64 MiB of the model's text, its material libraries, and the headers of its images.
+ModelGuess guess_model(const std::string& path, const ImageProbe& probe);
 
 CostEstimate estimate_cost(const ModelGuess& guess, const MemoryPlan& plan);
 
@@ -44,6 +48,6 @@ void require_resources(const ModelGuess& guess, const CostEstimate& cost, const 
 
 /// The same before a run, at no cost where the size of the file alone shows that all is well.
 void require_resources_for(const std::string& path, const MemoryPlan& plan,
-                           const std::string& directory);
+                           const std::string& directory, const ImageProbe& probe);
 
 }  // namespace atlasgauge

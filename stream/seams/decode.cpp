@@ -21,12 +21,6 @@ TileLayout layout_of(const TextureSlot& slot) {
   return {*slot.size, slot.kind};
 }
 
-/// Memory that decoding a slot's image takes, whoever allocates it.
-std::uint64_t decoding_bytes(const Engine& engine, const TextureSlot& slot) {
-  return layout_of(slot).band_bytes() + slot.decoder_bytes + kLargestTileBytes +
-         engine.block_bytes();
-}
-
 std::string described(const TextureSlot& slot) {
   return fmt::format("{} ({} x {} texels)", slot.path, slot.size->width, slot.size->height);
 }
@@ -139,7 +133,7 @@ class ImageDecoding {
 
  private:
   std::uint64_t need_of(std::uint32_t slot) const {
-    return decoding_bytes(engine_, textures_.slots[slot]);
+    return image_need(textures_.slots[slot], engine_.block_bytes()).memory_bytes;
   }
 
   /// The largest first, so that workers end at about the same time.
@@ -189,6 +183,12 @@ class ImageDecoding {
 
 }  // namespace
 
+ImageNeed image_need(const TextureSlot& slot, std::size_t block_bytes) {
+  const TileLayout layout = layout_of(slot);
+  return {layout.page_count() * sizeof(TexelPage),
+          layout.band_bytes() + slot.decoder_bytes + kLargestTileBytes + block_bytes};
+}
+
 void require_room_for_images(const Engine& engine, const TextureSlots& textures,
                              const DecodePlan& plan) {
   const std::vector<bool> named = named_slots(textures);
@@ -198,12 +198,12 @@ void require_room_for_images(const Engine& engine, const TextureSlots& textures,
   for (std::size_t i = 0; i < textures.slots.size(); ++i) {
     const TextureSlot& slot = textures.slots[i];
     if (!named[i] || !slot.readable) continue;
-    reserve(engine, decoding_bytes(engine, slot), plan, slot);
-    const std::uint64_t bytes = layout_of(slot).page_count() * sizeof(TexelPage);
-    all_bytes += bytes;
-    if (largest == nullptr || bytes > largest_bytes) {
+    const ImageNeed need = image_need(slot, engine.block_bytes());
+    reserve(engine, need.memory_bytes, plan, slot);
+    all_bytes += need.scratch_bytes;
+    if (largest == nullptr || need.scratch_bytes > largest_bytes) {
       largest = &slot;
-      largest_bytes = bytes;
+      largest_bytes = need.scratch_bytes;
     }
   }
   const std::uint64_t room_bytes = engine.scratch.room_bytes();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,6 +20,15 @@ struct DecodePlan {
   /// Memory within the limit of the process that the engine leaves unused.
   std::uint64_t spare_bytes = 0;
 };
+
+/// What the image of a slot takes.
+struct ImageNeed {
+  std::uint64_t scratch_bytes = 0;  ///< decoded
+  std::uint64_t memory_bytes = 0;   ///< while it is decoded, whoever allocates it
+};
+
+/// Of a readable slot.
+ImageNeed image_need(const TextureSlot& slot, std::size_t block_bytes);
 
 /// Throws Error(kResource), naming image and need, if an image that a material of the faces names
 /// cannot be decoded in the memory there is, or if there is no room in scratch for all of them:

@@ -542,6 +542,13 @@ TEST_P(SiteVariant, HasTheAnswersThatCountingGives) {
   for (const auto& [key, value] : counted.items()) expect_same(key, answers.at(key), value);
 }
 
+oracle::Options oracle_options(const oracle::Size& size) {
+  oracle::Options options;
+  options.size_option = size;
+  options.image_size = [size](const std::string&) { return size; };
+  return options;
+}
+
 /// What the oracle contradicts.
 std::vector<std::string> oracle_differences(const SiteOptions& options) {
   const oracle::Size size{options.texture_size_texels, options.texture_size_texels};
@@ -549,8 +556,7 @@ std::vector<std::string> oracle_differences(const SiteOptions& options) {
   const Site site(options);
   write_site(site, directory.path());
   const nlohmann::json report =
-      oracle::measure_obj(directory.path() + "/" + options.name + ".obj",
-                          {size, [size](const std::string&) { return size; }});
+      oracle::measure_obj(directory.path() + "/" + options.name + ".obj", oracle_options(size));
   return differences(report, site_answers(site));
 }
 

@@ -38,24 +38,32 @@ std::string refusal_of(const ModelGuess& guess, const CostEstimate& cost, const 
   return "";
 }
 
+ImageHeader any_image(const std::string&) {
+  return {.size = {100, 64}};
+}
+
 TEST(EstimateTest, CountsOfASmallModelAreExact) {
   const TempDir dir;
-  const ModelGuess guess =
-      guess_model(dir.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nf 1 2 3 4\n"));
+  const ModelGuess guess = guess_model(
+      dir.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nf 1 2 3 4\n"), any_image);
   EXPECT_TRUE(guess.is_whole);
   EXPECT_EQ(guess.positions, 4);
   EXPECT_EQ(guess.texcoords, 1);
   EXPECT_EQ(guess.faces, 2);
-  EXPECT_FALSE(guess.reads_images);
+  EXPECT_EQ(guess.images, 0U);
 }
 
 TEST(EstimateTest, ImagesCountOnlyWhenTheyAreThere) {
   const TempDir dir;
   dir.write("a.mtl", "newmtl m\nmap_Kd a.png\n");
   const std::string model = dir.write("a.obj", "mtllib a.mtl\nv 0 0 0\n");
-  EXPECT_FALSE(guess_model(model).reads_images);
+  EXPECT_EQ(guess_model(model, any_image).images, 0U);
   dir.write("a.png", "");
-  EXPECT_TRUE(guess_model(model).reads_images);
+  const ModelGuess guess = guess_model(model, any_image);
+  EXPECT_EQ(guess.images, 1U);
+  EXPECT_EQ(guess.texels, 100 * 64);
+  EXPECT_EQ(guess.largest_side_texels, 100);
+  EXPECT_EQ(guess.decoded_bytes, 12288 + 8192) << "36 columns of the second tile are two pages";
 }
 
 TEST(EstimateTest, RandomOrderShowsInTheTablesThatFacesLoad) {
@@ -68,8 +76,8 @@ TEST(EstimateTest, RandomOrderShowsInTheTablesThatFacesLoad) {
     in_order += "f" + index(i) + index(i + 1) + index(i + 2) + "\n";
     random += "f" + far(3 * i) + far(3 * i + 1) + far(3 * i + 2) + "\n";
   }
-  EXPECT_LT(guess_model(dir.write("a.obj", in_order)).loaded_bytes_per_face, 100);
-  EXPECT_GT(guess_model(dir.write("b.obj", random)).loaded_bytes_per_face, 600);
+  EXPECT_LT(guess_model(dir.write("a.obj", in_order), any_image).loaded_bytes_per_face, 100);
+  EXPECT_GT(guess_model(dir.write("b.obj", random), any_image).loaded_bytes_per_face, 600);
 }
 
 TEST(EstimateTest, MemoryOfAHugeModelIsBelowTheLimit) {
@@ -127,8 +135,9 @@ TEST(EstimateTest, ASampleIsTakenWhereTheSizeOfTheFileDoesNotSettleIt) {
   MemoryWishes wishes;
   wishes.engine_bytes = 2 * kMiB;
   const MemoryPlan plan = plan_memory(wishes, 2);
-  EXPECT_NO_THROW(require_resources_for(model, plan, dir.path().string()));
-  EXPECT_THROW(require_resources_for(model, plan, "/proc"), Error) << "which has no free space";
+  EXPECT_NO_THROW(require_resources_for(model, plan, dir.path().string(), any_image));
+  EXPECT_THROW(require_resources_for(model, plan, "/proc", any_image), Error)
+      << "which has no free space";
 }
 
 TEST(EstimateTest, MissingDirectoryIsLeftToTheRun) {
