@@ -539,10 +539,13 @@ TEST_F(ImageRowsTest, FilesThatAreNoImagesCannotBeOpened) {
 TEST_F(ImageRowsTest, HeadersThatTheLibraryWouldCrashOnAreErrors) {
   std::string bitmap = content(write_gradient("a.bmp"));
   bitmap[30] = '\2';  // run lengths of four bits, of texels of 24
-  EXPECT_NE(error_of_rows(dir_.write("b.bmp", bitmap)), "");
+  const auto refused_unopened = [&](const std::string& path) {
+    return error_of_rows(path).find("its header contradicts itself") != std::string::npos;
+  };
+  EXPECT_TRUE(refused_unopened(dir_.write("b.bmp", bitmap)));
   std::string sgi = content(write_gradient("a.sgi"));
   sgi[3] = '\0';  // bytes a channel
-  EXPECT_NE(error_of_rows(dir_.write("b.sgi", sgi)), "");
+  EXPECT_TRUE(refused_unopened(dir_.write("b.sgi", sgi)));
 }
 
 class DecoderBytesTest : public ImageRowsTest {
