@@ -63,7 +63,6 @@ struct StreamOptions {
 ///   read -> weld -> UV shift -> triangles -> edges -> vertex stars
 ///        -> labels: components, boundary, charts -> raster (needs chart numbers) -> seams
 ///        -> percentiles (the cutoff of s_f needs the occupancy)
-///
 MeshFacts stream_model(const Engine& engine, const std::string& path, const StreamOptions& options,
                        Warnings& warnings, const ResolveTextures& resolve_textures,
                        GroupSinks& sinks);

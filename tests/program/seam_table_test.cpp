@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "io/error.hpp"
-#include "measures/seam_file.hpp"
+#include "measures/output/seam_file.hpp"
 #include "tests/support/engine_fixture.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/program.hpp"

@@ -1,4 +1,4 @@
-#include "measures/seam_table.hpp"
+#include "measures/output/seam_table.hpp"
 
 #include <cstdint>
 #include <span>

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/table_file.hpp"
-#include "measures/seam_file.hpp"
+#include "measures/output/seam_file.hpp"
 
 namespace atlasgauge {
 

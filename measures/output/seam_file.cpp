@@ -1,8 +1,8 @@
-#include "measures/seam_file.hpp"
+#include "measures/output/seam_file.hpp"
 
 #include "io/suffix.hpp"
-#include "measures/seam_picture.hpp"
-#include "measures/seam_table.hpp"
+#include "measures/output/seam_picture.hpp"
+#include "measures/output/seam_table.hpp"
 
 namespace atlasgauge {
 

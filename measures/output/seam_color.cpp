@@ -1,4 +1,4 @@
-#include "measures/seam_color.hpp"
+#include "measures/output/seam_color.hpp"
 
 #include <algorithm>
 #include <array>

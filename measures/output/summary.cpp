@@ -1,4 +1,4 @@
-#include "measures/summary.hpp"
+#include "measures/output/summary.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

@@ -1,8 +1,8 @@
-#include "measures/seam_picture.hpp"
+#include "measures/output/seam_picture.hpp"
 
 #include <cmath>
 
-#include "measures/seam_color.hpp"
+#include "measures/output/seam_color.hpp"
 #include "stream/engine/spill.hpp"
 
 namespace atlasgauge {

@@ -1,4 +1,4 @@
-#include "measures/chart_table.hpp"
+#include "measures/output/chart_table.hpp"
 
 #include <algorithm>
 #include <array>

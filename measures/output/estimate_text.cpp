@@ -1,4 +1,4 @@
-#include "measures/estimate_text.hpp"
+#include "measures/output/estimate_text.hpp"
 
 #include <fmt/format.h>
 
