@@ -137,6 +137,7 @@ void measure(const Options& options) {
     wanted.on_seams = [&](SeamRows& rows) { seams->write(rows); };
   }
   wanted.texmetro_seams = options.texmetro_seams;
+  wanted.spare_bytes = plan.spare_bytes;
   if (options.maps_dir) wanted.distortion_of = distortion_of_any;
   MeshFacts facts = stream_model(engine, options.model, wanted, warnings, resolve, measures);
   const Report report = measures.finish(facts);
@@ -152,7 +153,7 @@ void measure(const Options& options) {
   if (seams) seams->commit();
   if (options.json_path) write_report(*options.json_path, report);
   write_text(options, summary_of(facts, report));
-  if (options.verbose) remark(cost_of(engine, plan, facts.raster).c_str());
+  if (options.verbose) remark(cost_of(engine, plan, facts).c_str());
 }
 
 int run(const std::vector<std::string>& arguments) {

@@ -152,7 +152,7 @@ std::string summary_of(const MeshFacts& facts, const Report& report) {
   return table.take();
 }
 
-std::string cost_of(const Engine& engine, const MemoryPlan& plan, const RasterWork& raster) {
+std::string cost_of(const Engine& engine, const MemoryPlan& plan, const MeshFacts& facts) {
   std::string text = fmt::format("\n{:<14}{:>9}{:>9}{:>9}{:>13}{:>13}{:>13}\n", "stage", "wall s",
                                  "CPU s", "workers", "spilled", "written", "read");
   for (const StageCost& stage : engine.log.stages()) {
@@ -164,9 +164,13 @@ std::string cost_of(const Engine& engine, const MemoryPlan& plan, const RasterWo
   const auto line = [&](std::string_view what, std::uint64_t bytes, std::string_view note) {
     text += fmt::format("{:<26}{:>13}  {}\n", what, format_bytes(bytes), note);
   };
+  const RasterWork& raster = facts.raster;
   text +=
       fmt::format("raster: {} tiles of up to {} texels, triangles drawn: {} scalar, {} osmesa\n",
                   raster.tiles, raster.tile_size, raster.triangles.scalar, raster.triangles.osmesa);
+  text += fmt::format("seams: {} images decoded, {} texels, {} sample pairs\n",
+                      facts.seams.images_decoded, facts.seams.texels_decoded,
+                      facts.seams.sample_pairs);
   line("memory limit", plan.limit_bytes, plan.origin);
   line("engine budget", engine.budget.limit_bytes(), "");
   line("peak resident", peak_resident_bytes(), "");

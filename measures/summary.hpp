@@ -13,6 +13,6 @@ namespace atlasgauge {
 std::string summary_of(const MeshFacts& facts, const Report& report);
 
 /// What the run cost: stage by stage, and memory.
-std::string cost_of(const Engine& engine, const MemoryPlan& plan, const RasterWork& raster);
+std::string cost_of(const Engine& engine, const MemoryPlan& plan, const MeshFacts& facts);
 
 }  // namespace atlasgauge

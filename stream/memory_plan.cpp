@@ -84,6 +84,9 @@ MemoryPlan plan_memory(const MemoryWishes& wishes, std::size_t cpus) {
     throw Error(ErrorKind::kResource, "--engine-memory is too little; give at least " +
                                           format_bytes(kSmallestEngineBytes));
   }
+  const std::uint64_t taken_bytes =
+      other.process_bytes + plan.workers * other.worker_bytes + plan.engine_bytes;
+  plan.spare_bytes = plan.limit_bytes - std::min(plan.limit_bytes, taken_bytes);
   plan.resident_bytes = plan.engine_bytes / 4;
   plan.block_bytes = std::clamp(std::bit_floor(plan.engine_bytes / kBlocksPerEngine),
                                 kSmallestBlockBytes, kLargestBlockBytes);

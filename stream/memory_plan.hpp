@@ -13,6 +13,8 @@ struct MemoryPlan {
   std::string origin;                ///< what set the limit
   std::uint64_t engine_bytes = 0;    ///< the budget of the engine
   std::uint64_t resident_bytes = 0;  ///< of these, the blocks of scratch that stay in memory
+  /// What the limit leaves beside the engine and the process itself, for images that are decoded.
+  std::uint64_t spare_bytes = 0;
   std::size_t block_bytes = 0;       ///< of scratch
   std::size_t workers = 0;           ///< threads
 };

@@ -10,13 +10,12 @@
 
 namespace atlasgauge {
 
-/// What is known of a seam edge before its colours are.
-inline SeamEdge edge_of(const SeamCandidate& candidate) {
+/// A seam edge whose colours are not known.
+inline SeamEdge unsampled(const SeamCandidate& candidate) {
   SeamEdge edge;
   std::copy(candidate.v, candidate.v + 2, edge.v);
   std::copy(candidate.sides, candidate.sides + 2, edge.sides);
   edge.length_3d = candidate.length_3d;
-  edge.sampled = candidate.sampled;
   return edge;
 }
 
@@ -42,7 +41,11 @@ class SeamOutput {
     textures_.flush();
     kept_.flush();
   }
-  void count_nonfinite() { ++nonfinite_; }
+  /// An edge on texels that are not numbers.
+  void push_nonfinite(const SeamEdge& edge) {
+    ++nonfinite_;
+    push(edge);
+  }
 
   std::uint64_t sample_pairs() const { return sample_pairs_; }
   std::uint64_t nonfinite() const { return nonfinite_; }

@@ -44,7 +44,7 @@ struct SeamResults {
 ///   4. with the answers of an edge in memory, or in order if they are too many, its samples are
 ///      taken and their distances added one after the other.
 /// No step depends on where tiles end, on the memory or on the number of threads.
-SeamResults sample_seams(const Engine& engine, Spill<SeamCandidate> edges,
+SeamResults sample_seams(const Engine& engine, Spill<SeamCandidate> candidates,
                          const TextureSlots& textures, const SlotFrames& frames,
                          const SeamPlan& plan, Warnings& warnings, GroupSinks& sinks);
 

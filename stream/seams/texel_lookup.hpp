@@ -10,7 +10,7 @@ struct FootprintPart {
   std::uint32_t seam;
   std::uint32_t index_low;
   std::uint8_t index_high;
-  std::uint8_t lane : 4;     ///< see SeamSampling
+  std::uint8_t lane : 4;     ///< see SeamEdges
   std::uint8_t corners : 4;  ///< bit c for corner c
   /// In a request: where in its tile the lowest of these corners lies, in texels from the top left.
   std::uint8_t column, row;

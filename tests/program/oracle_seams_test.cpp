@@ -17,7 +17,6 @@ namespace {
 
 using nlohmann::json;
 using oracle::Colour;
-using oracle::Face;
 using oracle::Model;
 using oracle::Pixels;
 using oracle::Position;
@@ -166,6 +165,20 @@ TEST(OracleSeamsTest, CentresOfTexelsAreAtHalfIntegers) {
       red([](std::int64_t, std::int64_t row) { return static_cast<double>(row); });
   const Segment between = {{{0, 0.25F}, {0.5F, 0.25F}}};  // rows 5 and 6 from the top
   EXPECT_EQ(against_black(by_row, between), 5.5);
+}
+
+// The mean of 10 x: at the middles of twenty steps from 0 to 4 it is that of the whole.
+TEST(OracleSeamsTest, SamplesLieInTheMiddleOfTheirSteps) {
+  EXPECT_NEAR(against_black(ramp(10), kFourTexels), 20, 1e-12);
+}
+
+// At the beginnings of the steps, from 0 on by the second face, from 4 on by the first.
+TEST(OracleSeamsTest, TexMetroSamplesTheBeginningsOfSteps) {
+  const auto average = [](const std::array<Pixels, 2>& images) {
+    return oracle::measure(cut_quad(kSize, images, {kFourTexels, kFourTexels}), true).at(kTexMetro);
+  };
+  EXPECT_NEAR(average({plain(0), ramp(10)}), 19, 1e-12);
+  EXPECT_NEAR(average({ramp(10), plain(0)}), 21, 1e-12);
 }
 
 // The left border is half of the first column and half of the last.

@@ -27,7 +27,7 @@ void compare_seeds(std::uint64_t begin, std::uint64_t end) {
     config.engine_bytes = seed % 2 == 0 ? 2 << 20 : 1 << 20;
     config.tile_size = std::array{0, 1, 3, 8, 16}[seed % 5];
     config.texmetro_seams = seed % 2 == 0;
-    const ProceduralImages images(model.images, seed);
+    const ComputedImages images = random_images(model.images, seed);
     config.probe = images.probe();
     if (!model.reaches_long) config.open_image = images.open();
     if (const auto size = model.size_option) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/support/pipeline_run.hpp"
-#include "tests/support/procedural_images.hpp"
+#include "tests/support/random_images.hpp"
 
 namespace atlasgauge {
 

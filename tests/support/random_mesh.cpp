@@ -442,7 +442,7 @@ void change_chart(Dice& dice, const ChartStyle& style, Patch& patch) {
 
 struct Style {
   bool calm;  // manifold but for coincident vertices, without defects
-  double scale;
+  Point scale;
   bool lattice;
   double reuse;  // chance that a vertex at a place that is taken is shared
   double split;  // chance that a corner gets a vertex of its own at the same place
@@ -451,11 +451,19 @@ struct Style {
   double stray;  // chance that a polygon has another material than its patch
 };
 
+// Powers of two keep the lattice exact. The other scale has a ratio that keeps distortions from
+// being 100, where qcd is cut, but for rounding.
+Point any_scale(Dice& dice) {
+  const auto uniform = [](double x) { return Point{x, x, x}; };
+  return dice.pick<Point>({uniform(1), uniform(1), uniform(1), uniform(0x1p-20), uniform(0x1p20),
+                           Point{0.1, 0.097, 0.1}});
+}
+
 Style make_style(Dice& dice, bool calm, double defect_chance) {
   const auto maybe = [&](double value) { return dice.chance(defect_chance) ? value : 0; };
   Style style{};
   style.calm = calm;
-  style.scale = dice.pick<double>({1, 1, 1, 0x1p-20, 0x1p20, 0.1});
+  style.scale = any_scale(dice);
   style.lattice = dice.chance(0.75);
   style.reuse = calm ? 0 : dice.pick<double>({0, 0, 0.5, 1});
   style.split = maybe(dice.pick<double>({0.1, 0.5, 1}));
@@ -483,7 +491,7 @@ std::vector<size_t> place_vertices(Dice& dice, const Style& style, const Patch& 
     Point position;
     for (size_t i = 0; i < 3; ++i) {
       const double jitter = style.lattice ? 0 : 0.25 * dice.unit();
-      position[i] = (point[i] + offset[i] + jitter) * style.scale;
+      position[i] = (point[i] + offset[i] + jitter) * style.scale[i];
     }
     placed.push_back(place_vertex(dice, style, position, draft));
   }
@@ -712,7 +720,7 @@ MaterialText make_materials(Dice& dice, const std::vector<std::string>& images) 
 }
 
 std::string library_line(Dice& dice, const std::string& mtl_name) {
-  const std::string line = "mtllib " + mtl_name;
+  std::string line = "mtllib " + mtl_name;
   if (dice.chance(0.85)) return line;
   return dice.pick<std::string>({"mtllib none.mtl " + mtl_name, "mtllib none.mtl", "# no mtllib"});
 }

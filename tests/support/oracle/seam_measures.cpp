@@ -16,6 +16,7 @@ constexpr size_t kWorst = 20;
 
 void report_counts(json& report, const std::vector<Seam>& seams) {
   std::vector<double> lengths;
+  lengths.reserve(seams.size());
   for (const Seam& seam : seams) lengths.push_back(seam.length_3d);
   report["seam_edges"] = seams.size();
   report["seam_len"] = rounded(exact_sum(lengths));
