@@ -23,7 +23,7 @@ TileLayout layout_of(const TextureSlot& slot) {
 
 /// Memory that decoding a slot's image takes, whoever allocates it.
 std::uint64_t decoding_bytes(const Engine& engine, const TextureSlot& slot) {
-  return layout_of(slot).band_bytes() + slot.decoder_bytes + TexelStore::Reader::kMemoryBytes +
+  return layout_of(slot).band_bytes() + slot.decoder_bytes + kLargestTileBytes +
          engine.block_bytes();
 }
 

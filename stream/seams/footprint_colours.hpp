@@ -4,11 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "io/texture/image_header.hpp"
 #include "stream/seams/seam_path.hpp"
-#include "stream/seams/texel_lookup.hpp"
+#include "stream/seams/seam_rule.hpp"
 
 namespace atlasgauge {
 
@@ -21,7 +22,8 @@ inline double distance(const Colour& a, const Colour& b) {
 }
 
 /// One texel as an image of some kind stores it.
-inline Colour colour_of(const std::uint8_t* texel, TexelKind kind) {
+inline Colour colour_of(const void* stored, TexelKind kind) {
+  const auto* texel = static_cast<const std::uint8_t*>(stored);
   if (kind == TexelKind::kByte) {
     return {static_cast<double>(texel[0]), static_cast<double>(texel[1]),
             static_cast<double>(texel[2])};
@@ -41,18 +43,20 @@ inline Colour colour_of(const std::uint8_t* texel, TexelKind kind) {
   return colour;
 }
 
-/// The colours along one side of a seam edge. `Source` has next(), the answers of this side in
-/// order.
+/// The colours at the corners of a footprint: corner c is the texel at (x + c % 2, y + c / 2).
+using CornerColours = std::array<Colour, 4>;
+
+/// The colours along one side of a seam edge. `Source` has read(footprint, corners), which is
+/// called for one footprint after the other.
 template <class Source>
 class FootprintColours {
  public:
-  FootprintColours(Source source, const SeamPath& path, TexelKind kind)
-      : source_(std::move(source)), path_(path), kind_(kind) {}
+  FootprintColours(Source source, const SeamPath& path) : source_(std::move(source)), path_(path) {}
 
   /// The colour at sample i; to be asked for each i from 0 on.
   Colour at(std::uint64_t i) {
     const Footprint footprint = path_.at(i);
-    if (i == 0 || !footprint.has_texels_of(last_)) read_corners();
+    if (i == 0 || !footprint.has_texels_of(last_)) source_.read(footprint, corners_);
     last_ = footprint;
     Colour colour;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -66,23 +70,22 @@ class FootprintColours {
  private:
   static double mix(double a, double b, double t) { return a * (1 - t) + b * t; }
 
-  void read_corners() {
-    for (unsigned read = 0; read != 15;) {
-      const TexelAnswer& answer = source_.next();
-      for (unsigned c = 0; c < 4; ++c) {
-        if ((answer.part.corners >> c & 1) == 0) continue;
-        const std::size_t at = kind_ == TexelKind::kByte ? c * TexelAnswer::kByteTexels : 0;
-        corners_[c] = colour_of(answer.texels + at, kind_);
-      }
-      read |= answer.part.corners;
-    }
-  }
-
   Source source_;
   SeamPath path_;
-  TexelKind kind_;
   Footprint last_{};
-  std::array<Colour, 4> corners_{};
+  CornerColours corners_{};
 };
+
+/// The mean distance of the colours on the two sides of an edge, the distances added in the order
+/// of the samples; NaN where there is none. `source(side)` is that of a side.
+template <class Sources>
+double mean_distance(const SeamSamples& samples, Sources source) {
+  if (samples.count == 0) return std::numeric_limits<double>::quiet_NaN();
+  FootprintColours a(source(0), samples.sides[0]);
+  FootprintColours b(source(1), samples.sides[1]);
+  double sum = 0;
+  for (std::uint64_t i = 0; i < samples.count; ++i) sum += distance(a.at(i), b.at(i));
+  return sum / static_cast<double>(samples.count);
+}
 
 }  // namespace atlasgauge

@@ -3,15 +3,25 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "stream/engine/engine.hpp"
 #include "stream/engine/spill.hpp"
 #include "stream/mesh/records.hpp"
+#include "stream/seams/footprint_colours.hpp"
 #include "stream/seams/seam_rule.hpp"
 
 namespace atlasgauge {
+
+/// The mean colour distance on an edge by each rule; NaN where a rule has no samples.
+using SeamDistances = std::array<double, 2>;
+
+/// Hears of the edges that were sampled; any worker.
+using OnCompared = std::function<void(std::size_t worker, const SeamCandidate& edge,
+                                      const SeamDistances& distances)>;
 
 /// Seam edges to be sampled, numbered, by one rule or two. A rule and a side make a lane.
 class SeamEdges {
@@ -34,6 +44,25 @@ class SeamEdges {
   SeamSamples samples(const SeamCandidate& edge, std::size_t rule) const {
     static constexpr std::array<SeamRule, kRules> kAll{kSeamRule, kTexMetroRule};
     return samples_of(edge, frames_, kAll[rule]);
+  }
+
+  /// Whether an edge has so many samples that its texels are better looked up along it, than
+  /// fetched with those of others.
+  bool is_long(const SeamCandidate& edge) const {
+    constexpr std::uint64_t kMostSamples = 1 << 16;
+    return samples(edge, 0).count > kMostSamples;
+  }
+
+  /// source(rule, side) is where colours come from: see FootprintColours.
+  template <class Sources>
+  SeamDistances distances(const SeamCandidate& edge, Sources source) const {
+    SeamDistances distances;
+    distances.fill(std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t rule = 0; rule < rules_; ++rule) {
+      distances[rule] =
+          mean_distance(samples(edge, rule), [&](std::size_t side) { return source(rule, side); });
+    }
+    return distances;
   }
 
   /// Calls use(worker, number, edge) for all edges, on all workers; takes a block of memory each.

@@ -10,12 +10,13 @@
 
 namespace atlasgauge {
 
-/// A seam edge whose colours are not known.
-inline SeamEdge unsampled(const SeamCandidate& candidate) {
+/// A seam edge whose colours are not compared.
+inline SeamEdge unmeasured(const SeamCandidate& candidate, bool sampled) {
   SeamEdge edge;
   std::copy(candidate.v, candidate.v + 2, edge.v);
   std::copy(candidate.sides, candidate.sides + 2, edge.sides);
   edge.length_3d = candidate.length_3d;
+  edge.sampled = sampled;
   return edge;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "stream/engine/partition.hpp"
+#include "stream/seams/long_seams.hpp"
 #include "stream/seams/seam_comparison.hpp"
 #include "stream/seams/seam_edges.hpp"
 #include "stream/seams/seam_output.hpp"
@@ -23,14 +24,13 @@ namespace {
 constexpr std::uint64_t kOutputBytes = 32 << 10;
 
 std::uint64_t own_bytes(const Engine& engine, std::size_t slots) {
-  return engine.workers.count() * (engine.block_bytes() + kOutputBytes) + 4 * engine.block_bytes() +
+  return engine.workers.count() * (engine.block_bytes() + kOutputBytes) + 5 * engine.block_bytes() +
          slots * (sizeof(StoredImage) + engine.workers.count());
 }
 
 SeamEdge measured(const SeamCandidate& candidate, std::uint64_t samples,
                   const SeamDistances& distances) {
-  SeamEdge edge = unsampled(candidate);
-  edge.sampled = true;
+  SeamEdge edge = unmeasured(candidate, true);
   edge.samples = samples;
   edge.discrepancy = distances[0];
   edge.texmetro_discrepancy = distances[1];
@@ -70,23 +70,32 @@ SeamResults sample_seams(const Engine& engine, Spill<SeamCandidate> candidates,
     outputs.emplace_back(sinks.of_worker(i), by_texture, kept, plan.keep_edges);
   }
 
+  SharedSpill<std::uint32_t> long_edges(engine.scratch);
+  std::vector<SharedSpill<std::uint32_t>::Writer> long_writers(
+      engine.workers.count(), SharedSpill<std::uint32_t>::Writer(long_edges));
+
   const SeamEdges edges(std::move(candidates), frames, plan.texmetro);
   const TexelSurvey survey = survey_texels(engine, edges, slots);
   const TexelStore store = decode_images(engine, textures, survey.slots, plan.decode, warnings);
-  auto requests = request_texels(engine, edges, store, survey.requests,
-                                 [&](std::size_t worker, const SeamCandidate& edge) {
-                                   SeamEdge output = unsampled(edge);
-                                   output.sampled = edge.sampled && is_decoded(store, edge);
-                                   outputs[worker].push(output);
-                                 });
+
+  const auto on_nothing = [&](std::size_t worker, const SeamCandidate& edge) {
+    outputs[worker].push(unmeasured(edge, edge.sampled && is_decoded(store, edge)));
+  };
+  const auto on_long = [&](std::size_t worker, std::uint32_t number) {
+    long_writers[worker].push(number);
+  };
+  const auto on_compared = [&](std::size_t worker, const SeamCandidate& edge,
+                               const SeamDistances& distances) {
+    const std::uint64_t samples = edges.samples(edge, 0).count;
+    samples == 0 || std::isfinite(distances[0])
+        ? outputs[worker].push(measured(edge, samples, distances))
+        : outputs[worker].push_nonfinite(unmeasured(edge, false));
+  };
+  auto requests = request_texels(engine, edges, store, survey.requests, {on_nothing, on_long});
   auto answers = answer_requests(engine, store, std::move(requests), edges.size());
-  compare_sides(engine, edges, store, std::move(answers),
-                [&](std::size_t worker, const SeamCandidate& edge, const SeamDistances& distances) {
-                  const std::uint64_t samples = edges.samples(edge, 0).count;
-                  const bool finite = samples == 0 || std::isfinite(distances[0]);
-                  finite ? outputs[worker].push(measured(edge, samples, distances))
-                         : outputs[worker].push_nonfinite(unsampled(edge));
-                });
+  compare_sides(engine, edges, store, std::move(answers), on_compared, long_writers[0]);
+  for (auto& writer : long_writers) writer.flush();
+  compare_along(engine, edges, store, long_edges.finish(), on_compared);
 
   SeamResults results;
   results.work = work_of(store, slots);

@@ -41,8 +41,9 @@ struct SeamResults {
 ///      that successive samples share; the requests are distributed by tile;
 ///   3. each tile is read once and answers its requests with the texels as stored; the answers are
 ///      distributed by edge;
-///   4. with the answers of an edge in memory, or in order if they are too many, its samples are
-///      taken and their distances added one after the other.
+///   4. with the answers of an edge in memory, its samples are taken and their distances added one
+///      after the other;
+///   5. edges so long that this would be much are followed from texel to texel instead.
 /// No step depends on where tiles end, on the memory or on the number of threads.
 SeamResults sample_seams(const Engine& engine, Spill<SeamCandidate> candidates,
                          const TextureSlots& textures, const SlotFrames& frames,

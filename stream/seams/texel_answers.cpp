@@ -16,11 +16,11 @@ using Answers = KeyedGroups<TexelAnswer>;
 
 /// What one worker answers with.
 struct Answerer {
-  TexelStore::Reader tiles;
+  TileCache tiles;
   Partition<TexelAnswer>::Writer answers;
 
   void answer(std::span<const TexelRequest> requests, const KeyRanges& ranges) {
-    const LoadedTile tile = tiles.load(requests[0].tile);
+    const LoadedTile& tile = tiles.at(requests[0].tile);
     for (const TexelRequest& request : requests) {
       answers.push(ranges.bucket_of(request.part.seam), answer_to(request, tile));
     }
@@ -45,12 +45,12 @@ Answers::Buckets answer_requests(const Engine& engine, const TexelStore& store,
                     free_bytes / 8 * 7, free_bytes / 2, Answers::even_buckets(engine));
   const Reservation memory = engine.budget.reserve(
       Partition<TexelAnswer>::memory_bytes(ranges.bucket_count(), workers, engine.block_bytes()) +
-          workers * TexelStore::Reader::kMemoryBytes,
+          workers * TileCache::bytes(1),
       "distributing texels to seams");
   Partition<TexelAnswer> partition(engine.scratch, ranges.bucket_count());
   std::vector<Answerer> answerers;
   for (std::size_t i = 0; i < workers; ++i) {
-    answerers.push_back({TexelStore::Reader(store), Partition<TexelAnswer>::Writer(partition)});
+    answerers.push_back({TileCache(store, 1), Partition<TexelAnswer>::Writer(partition)});
   }
   Requests groups(
       engine,

@@ -17,6 +17,7 @@ using Requests = KeyedGroups<TexelRequest>;
 void add(TexelSurvey& survey, const SeamEdges& edges, const SeamCandidate& edge) {
   if (!edge.sampled) return;
   for (const SeamSide& side : edge.sides) survey.slots[raw(side.slot)] = true;
+  if (edges.is_long(edge)) return;
   for (std::size_t rule = 0; rule < edges.rules(); ++rule) {
     for (const SeamPath& path : edges.samples(edge, rule).sides) {
       survey.requests += path.usual_footprints();
@@ -42,15 +43,18 @@ void require_room(const Scratch& scratch, double requests) {
                           bytes / (1 << 30), format_bytes(room_bytes)));
 }
 
-/// Whether there was anything to ask for.
+bool has_samples(const SeamEdges& edges, const SeamCandidate& edge) {
+  for (std::size_t rule = 0; rule < edges.rules(); ++rule) {
+    if (edges.samples(edge, rule).count > 0) return true;
+  }
+  return false;
+}
+
 template <class Push>
-bool request_edge(const SeamEdges& edges, const TexelStore& store, std::uint32_t number,
+void request_edge(const SeamEdges& edges, const TexelStore& store, std::uint32_t number,
                   const SeamCandidate& edge, Push push) {
-  if (!edge.sampled || !is_decoded(store, edge)) return false;
-  bool asked = false;
   for (std::size_t rule = 0; rule < edges.rules(); ++rule) {
     const SeamSamples samples = edges.samples(edge, rule);
-    asked = asked || samples.count > 0;
     for (std::size_t side = 0; side < 2; ++side) {
       FootprintPart part{};
       part.seam = number;
@@ -59,7 +63,6 @@ bool request_edge(const SeamEdges& edges, const TexelStore& store, std::uint32_t
                    push);
     }
   }
-  return asked;
 }
 
 }  // namespace
@@ -80,9 +83,9 @@ bool is_decoded(const TexelStore& store, const SeamCandidate& edge) {
   return store.image(edge.sides[0].slot).decoded && store.image(edge.sides[1].slot).decoded;
 }
 
-Requests::Buckets request_texels(
-    const Engine& engine, const SeamEdges& edges, const TexelStore& store, double requests,
-    const std::function<void(std::size_t worker, const SeamCandidate& edge)>& on_unasked) {
+Requests::Buckets request_texels(const Engine& engine, const SeamEdges& edges,
+                                 const TexelStore& store, double requests,
+                                 const UnaskedEdges& unasked) {
   require_room(engine.scratch, requests);
   StageLog::Stage stage(engine.log, "seam requests", edges.block_count());
   const std::size_t workers = engine.workers.count();
@@ -96,13 +99,15 @@ Requests::Buckets request_texels(
   Partition<TexelRequest> partition(engine.scratch, ranges.bucket_count());
   std::vector<Partition<TexelRequest>::Writer> writers(workers,
                                                        Partition<TexelRequest>::Writer(partition));
-  edges.visit(engine, stage,
-              [&](std::size_t worker, std::uint32_t number, const SeamCandidate& edge) {
-                const auto push = [&](const TexelRequest& request) {
-                  writers[worker].push(ranges.bucket_of(request.tile), request);
-                };
-                if (!request_edge(edges, store, number, edge, push)) on_unasked(worker, edge);
-              });
+  const auto ask = [&](std::size_t worker, std::uint32_t number, const SeamCandidate& edge) {
+    const bool can = edge.sampled && is_decoded(store, edge) && has_samples(edges, edge);
+    if (!can) return unasked.on_nothing(worker, edge);
+    if (edges.is_long(edge)) return unasked.on_long(worker, number);
+    request_edge(edges, store, number, edge, [&](const TexelRequest& request) {
+      writers[worker].push(ranges.bucket_of(request.tile), request);
+    });
+  };
+  edges.visit(engine, stage, ask);
   for (auto& writer : writers) writer.flush();
   return {ranges, partition.finish()};
 }

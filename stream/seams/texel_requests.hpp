@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -23,10 +24,17 @@ TexelSurvey survey_texels(const Engine& engine, const SeamEdges& edges, std::siz
 /// Whether the images on both sides were decoded.
 bool is_decoded(const TexelStore& store, const SeamCandidate& edge);
 
-/// Asks for the texels of all samples, by tile. Edges without samples, or without a decoded image
-/// on both sides, go to `on_unasked` instead. Throws Error(kResource) if the answers have no room.
-KeyedGroups<TexelRequest>::Buckets request_texels(
-    const Engine& engine, const SeamEdges& edges, const TexelStore& store, double requests,
-    const std::function<void(std::size_t worker, const SeamCandidate& edge)>& on_unasked);
+/// Edges that no texels are asked for; any worker.
+struct UnaskedEdges {
+  /// Without samples, or without a decoded image on both sides.
+  std::function<void(std::size_t worker, const SeamCandidate& edge)> on_nothing;
+  std::function<void(std::size_t worker, std::uint32_t number)> on_long;
+};
+
+/// Asks for the texels of all samples, by tile. Throws Error(kResource) if the answers have no
+/// room.
+KeyedGroups<TexelRequest>::Buckets request_texels(const Engine& engine, const SeamEdges& edges,
+                                                  const TexelStore& store, double requests,
+                                                  const UnaskedEdges& unasked);
 
 }  // namespace atlasgauge

@@ -33,35 +33,34 @@ const StoredImage& TexelStore::image_of(std::uint32_t tile) const {
   return by_slot_[*(after - 1)];
 }
 
-LoadedTile TexelStore::Reader::load(std::uint32_t number) {
-  const StoredImage& image = store_.image_of(number);
+LoadedTile TexelStore::load(std::uint32_t number, AlignedBytes& memory) const {
+  const StoredImage& image = image_of(number);
   const ImageTile tile = image.layout.tile(number - image.first_tile);
-  return {&image, tile, load_pages(image, tile)};
+  return {&image, tile, load_pages(image, tile, memory)};
 }
 
-const std::byte* TexelStore::Reader::load_pages(const StoredImage& image, const ImageTile& tile) {
-  const Spill<TexelPage>& spill = store_.spills_[image.spill];
+const std::byte* TexelStore::load_pages(const StoredImage& image, const ImageTile& tile,
+                                        AlignedBytes& memory) const {
+  const Spill<TexelPage>& spill = spills_[image.spill];
   const Scratch& scratch = *spill.scratch();
   const std::size_t per_block = spill.records_per_block();
   std::uint64_t page = image.first_page + tile.first_page;
   for (std::uint32_t done = 0; done < tile.pages;) {
     const std::size_t block = page / per_block;
-    const std::size_t in_block = page % per_block;
-    const auto count =
-        static_cast<std::uint32_t>(std::min<std::size_t>(tile.pages - done, per_block - in_block));
+    const std::size_t offset = page % per_block * sizeof(TexelPage);
+    const auto count = static_cast<std::uint32_t>(
+        std::min<std::size_t>(tile.pages - done, per_block - page % per_block));
     const std::byte* const resident = scratch.resident(spill.block(block));
-    if (resident != nullptr && count == tile.pages) return resident + in_block * sizeof(TexelPage);
-    if (!memory_) memory_ = AlignedBytes(kMemoryBytes);
-    std::byte* const to = memory_.data() + done * sizeof(TexelPage);
-    if (resident != nullptr) {
-      std::memcpy(to, resident + in_block * sizeof(TexelPage), count * sizeof(TexelPage));
-    } else {
-      scratch.read(spill.block(block), in_block * sizeof(TexelPage), to, count * sizeof(TexelPage));
-    }
+    if (resident != nullptr && count == tile.pages) return resident + offset;
+    if (!memory) memory = AlignedBytes(kLargestTileBytes);
+    std::byte* const to = memory.data() + done * sizeof(TexelPage);
+    const std::size_t bytes = count * sizeof(TexelPage);
+    resident != nullptr ? static_cast<void>(std::memcpy(to, resident + offset, bytes))
+                        : scratch.read(spill.block(block), offset, to, bytes);
     done += count;
     page += count;
   }
-  return memory_.data();
+  return memory.data();
 }
 
 }  // namespace atlasgauge

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -32,6 +33,9 @@ struct LoadedTile {
   }
 };
 
+inline constexpr std::uint64_t kLargestTileBytes =
+    TileLayout::kSide * TileLayout::kSide * texel_bytes(TexelKind::kFloat);
+
 /// The decoded images of a model, in scratch. Their tiles are numbered, one image after the other.
 class TexelStore {
  public:
@@ -40,30 +44,49 @@ class TexelStore {
 
   const StoredImage& image(SlotId slot) const { return by_slot_[raw(slot)]; }
   std::uint32_t tile_count() const { return tile_count_; }
-  /// Reads tiles, for one thread.
-  class Reader {
-   public:
-    static constexpr std::uint64_t kMemoryBytes =
-        TileLayout::kSide * TileLayout::kSide * texel_bytes(TexelKind::kFloat);
-
-    explicit Reader(const TexelStore& store) : store_(store) {}
-    /// Valid until the next call.
-    LoadedTile load(std::uint32_t tile);
-
-   private:
-    const std::byte* load_pages(const StoredImage& image, const ImageTile& tile);
-
-    const TexelStore& store_;
-    AlignedBytes memory_;
-  };
+  /// Reads a tile into `memory`, which is made when first needed and has room for any tile, unless
+  /// it is resident.
+  LoadedTile load(std::uint32_t tile, AlignedBytes& memory) const;
 
  private:
   const StoredImage& image_of(std::uint32_t tile) const;
+  const std::byte* load_pages(const StoredImage& image, const ImageTile& tile,
+                              AlignedBytes& memory) const;
 
   std::vector<StoredImage> by_slot_;
   std::vector<Spill<TexelPage>> spills_;
   std::vector<std::uint32_t> decoded_;  ///< slots, in the order of their tiles
   std::uint32_t tile_count_ = 0;
+};
+
+/// Some tiles in memory, each in the only place where it may be, for one thread.
+class TileCache {
+ public:
+  static constexpr std::uint64_t bytes(std::size_t tiles) {
+    return tiles * (kLargestTileBytes + sizeof(Entry));
+  }
+
+  TileCache(const TexelStore& store, std::size_t tiles)
+      : store_(&store), entries_(std::max<std::size_t>(1, tiles)) {}
+
+  /// Valid until the next call.
+  const LoadedTile& at(std::uint32_t tile) {
+    Entry& entry = entries_[tile % entries_.size()];
+    if (entry.number == tile && entry.loaded.image != nullptr) return entry.loaded;
+    entry.number = tile;
+    entry.loaded = store_->load(tile, entry.memory);
+    return entry.loaded;
+  }
+
+ private:
+  struct Entry {
+    std::uint32_t number = 0;
+    LoadedTile loaded{};
+    AlignedBytes memory;
+  };
+
+  const TexelStore* store_;
+  std::vector<Entry> entries_;
 };
 
 }  // namespace atlasgauge
