@@ -17,11 +17,11 @@ bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
-/// How far a report's value of `key` may be from the answer.
-double tolerance(const std::string& key, const Answers& answers) {
+/// How far a report's value of `key` may be from the answer `want`.
+double tolerance(const std::string& key, double want, const Answers& answers) {
   const auto& exact = answers.exact_keys;
   if (std::find(exact.begin(), exact.end(), key) != exact.end()) return 0;
-  double size = std::abs(answers.values.at(key).get<double>());
+  double size = std::abs(want);
   if (ends_with(key, "_var") || ends_with(key, "_stddev")) {
     const std::string rms = key.substr(0, key.rfind('_')) + "_rms";
     const double scale = answers.values.value(rms, 1.0);
@@ -30,10 +30,15 @@ double tolerance(const std::string& key, const Answers& answers) {
   return 1e-12 * size;
 }
 
-bool agrees(const std::string& key, const nlohmann::json& got, const Answers& answers) {
-  const nlohmann::json& want = answers.values.at(key);
+bool agrees(const std::string& key, const nlohmann::json& got, const nlohmann::json& want,
+            const Answers& answers) {
+  if (want.is_array() && got.is_array()) {
+    return std::equal(got.begin(), got.end(), want.begin(), want.end(),
+                      [&](const auto& g, const auto& w) { return agrees(key, g, w, answers); });
+  }
   if (!want.is_number_float() || !got.is_number()) return got == want;
-  return std::abs(got.get<double>() - want.get<double>()) <= tolerance(key, answers);
+  const double value = want.get<double>();
+  return std::abs(got.get<double>() - value) <= tolerance(key, value, answers);
 }
 
 nlohmann::json read_json(const std::string& path) {
@@ -61,7 +66,7 @@ std::vector<std::string> differences(const nlohmann::json& report, const Answers
   for (const auto& [key, want] : answers.values.items()) {
     if (!report.contains(key)) {
       lines.push_back(fmt::format("{}: missing, should be {}", key, want.dump()));
-    } else if (!agrees(key, report.at(key), answers)) {
+    } else if (!agrees(key, report.at(key), want, answers)) {
       lines.push_back(fmt::format("{}: {} instead of {}", key, report.at(key).dump(), want.dump()));
     }
   }

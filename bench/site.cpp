@@ -1,6 +1,5 @@
 #include "bench/site.hpp"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "bench/images.hpp"
 #include "bench/permutation.hpp"
 #include "bench/site_texels.hpp"
 #include "bench/text_file.hpp"
@@ -943,70 +943,12 @@ void write_mtl(const Site& site, const std::string& path) {
   mtl.close();
 }
 
-/// From 0 to 96 and back.
-std::uint64_t wave(std::uint64_t at, std::uint64_t period) {
-  const std::uint64_t phase = at % period * 192 / period;
-  return std::min(phase, 192 - phase);
-}
-
-constexpr std::size_t kChannels = 3;
-constexpr int kBandRows = 64;
-
-/// Smooth waves, plus noise of 0 to 31 so that compression has something to do.
-void fill_row(std::uint64_t y, std::uint64_t size, std::uint64_t texture,
-              const std::vector<std::uint64_t>& column_waves, std::uint8_t* row) {
-  const std::array<std::uint64_t, kChannels> row_waves{
-      wave(y + 37 * texture, size / 2), wave(y + 71 * texture, size / 3), wave(y, size)};
-  for (std::uint64_t i = 0; i < size; ++i) {
-    std::uint64_t noise = mix((texture * size + y) * size + i);
-    for (std::size_t channel = 0; channel < kChannels; ++channel, noise >>= 5) {
-      const std::size_t at = i * kChannels + channel;
-      row[at] = static_cast<std::uint8_t>(row_waves[channel] + column_waves[at] + noise % 32);
-    }
-  }
-}
-
-std::vector<std::uint64_t> column_waves(std::uint64_t size) {
-  std::vector<std::uint64_t> waves;
-  for (std::uint64_t i = 0; i < size; ++i) {
-    for (const std::uint64_t period : {size, size / 2, size / 4}) waves.push_back(wave(i, period));
-  }
-  return waves;
-}
-
-void write_image(const std::string& path, int size, std::uint64_t texture) {
-  const auto fail = [&](const std::string& text) {
-    throw Error(ErrorKind::kResource, path, 0, text);
-  };
-  const auto image = OIIO::ImageOutput::create(path);
-  if (!image) fail(OIIO::geterror());
-  OIIO::ImageSpec spec(size, size, kChannels, OIIO::TypeDesc::UINT8);
-  spec.attribute("png:compressionLevel", 1);
-  spec.attribute("CompressionQuality", 90);
-  if (!image->open(path, spec)) fail(image->geterror());
-
-  const auto side = static_cast<std::uint64_t>(size);
-  const std::vector<std::uint64_t> waves = column_waves(side);
-  std::vector<std::uint8_t> band(side * kChannels * kBandRows);
-  for (int begin = 0; begin < size; begin += kBandRows) {
-    const int end = std::min(size, begin + kBandRows);
-    for (int y = begin; y < end; ++y) {
-      fill_row(static_cast<std::uint64_t>(y), side, texture, waves,
-               band.data() + static_cast<std::size_t>(y - begin) * side * kChannels);
-    }
-    if (!image->write_scanlines(begin, end, 0, OIIO::TypeDesc::UINT8, band.data())) {
-      fail(image->geterror());
-    }
-  }
-  if (!image->close()) fail(image->geterror());
-}
-
 void write_images(const Site& site, const std::string& directory) {
   if (site.options().image_format == ImageFormat::kNone) return;
   const std::vector<std::string> names = site.texture_names();
   for (std::size_t texture = 0; texture < names.size(); ++texture) {
-    write_image(directory + "/" + names[texture],
-                static_cast<int>(site.options().texture_size_texels), texture);
+    const std::uint64_t size = site.options().texture_size_texels;
+    write_image(directory + "/" + names[texture], size, waves_and_noise(size, texture));
   }
 }
 

@@ -542,21 +542,17 @@ TEST_P(SiteVariant, HasTheAnswersThatCountingGives) {
   for (const auto& [key, value] : counted.items()) expect_same(key, answers.at(key), value);
 }
 
-oracle::Options oracle_options(const oracle::Size& size) {
-  oracle::Options options;
-  options.size_option = size;
-  options.image_size = [size](const std::string&) { return size; };
-  return options;
-}
-
-/// What the oracle contradicts.
+/// What the oracle contradicts. The colours of the images do not matter, only that there are some.
 std::vector<std::string> oracle_differences(const SiteOptions& options) {
   const oracle::Size size{options.texture_size_texels, options.texture_size_texels};
+  const oracle::Pixels black = [](std::int64_t, std::int64_t) { return oracle::Colour{}; };
   const TempDir directory;
   const Site site(options);
   write_site(site, directory.path());
   const nlohmann::json report =
-      oracle::measure_obj(directory.path() + "/" + options.name + ".obj", oracle_options(size));
+      oracle::measure_obj(directory.path() + "/" + options.name + ".obj",
+                          {size, [size](const std::string&) { return size; },
+                           [black](const std::string&) { return black; }});
   return differences(report, site_answers(site));
 }
 
@@ -766,6 +762,20 @@ TEST_F(SiteDifferences, OfExactRealsAreTheLastBit) {
 TEST_F(SiteDifferences, OfOtherRealsBeginAtTheTwelfthDigit) {
   EXPECT_TRUE(scaled("crumbliness", 1 + 1e-13).empty());
   EXPECT_EQ(scaled("crumbliness", 1 + 1e-11).size(), 1U);
+}
+
+TEST_F(SiteDifferences, OfListsAreThoseOfTheirElements) {
+  const auto lines = [this](const nlohmann::json& list) {
+    answers.values["list"] = {2.5, nullptr, 7};
+    report["list"] = list;
+    return differences(report, answers).size();
+  };
+  EXPECT_EQ(lines({2.5 * (1 + 1e-13), nullptr, 7}), 0U);
+  EXPECT_EQ(lines({2.5 * (1 + 1e-11), nullptr, 7}), 1U);
+  EXPECT_EQ(lines({2.5, 0.0, 7}), 1U);
+  EXPECT_EQ(lines({2.5, nullptr, 8}), 1U);
+  EXPECT_EQ(lines({2.5, nullptr}), 1U);
+  EXPECT_EQ(lines(2.5), 1U);
 }
 
 TEST_F(SiteDifferences, OfAVarianceAreMeasuredByTheMeanSquare) {
