@@ -7,7 +7,6 @@
 #include <cstring>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -54,11 +53,11 @@ class Decoder {
     const std::unique_ptr<ImageRows> rows = open(slot.path);
     require_as_before(rows->header(), slot);
     const std::uint64_t first_page = pages_.size();
-    std::vector<std::byte> band(layout.band_bytes());
+    if (band_.size() < layout.band_bytes()) band_ = std::vector<std::byte>(layout.band_bytes());
     for (std::uint32_t row = 0; row < layout.rows(); ++row) {
       const std::uint64_t first_tile = std::uint64_t{row} * layout.columns();
-      rows->read(layout.tile(first_tile).height, band.data());
-      write_band(band, *slot.size, texel_bytes(slot.kind), layout, first_tile);
+      rows->read(layout.tile(first_tile).height, band_.data());
+      write_band(*slot.size, texel_bytes(slot.kind), layout, first_tile);
     }
     return first_page;
   }
@@ -74,16 +73,16 @@ class Decoder {
     throw Error(ErrorKind::kInput, slot.path, 0, "the image has changed since the run began");
   }
 
-  void write_band(std::span<const std::byte> band, ImageSize size, std::uint32_t bytes_of_texel,
-                  const TileLayout& layout, std::uint64_t first_tile) {
+  void write_band(ImageSize size, std::uint32_t bytes_of_texel, const TileLayout& layout,
+                  std::uint64_t first_tile) {
     const std::size_t band_row_bytes = std::size_t{size.width} * bytes_of_texel;
     for (std::uint32_t column = 0; column < layout.columns(); ++column) {
       const ImageTile tile = layout.tile(first_tile + column);
       const std::size_t row_bytes = std::size_t{tile.width} * bytes_of_texel;
-      tile_.assign(tile.pages, {});
+      tile_.resize(tile.pages);
       std::byte* to = tile_.data()->bytes;
       const std::byte* from =
-          band.data() + std::size_t{column} * TileLayout::kSide * bytes_of_texel;
+          band_.data() + std::size_t{column} * TileLayout::kSide * bytes_of_texel;
       for (std::uint32_t y = 0; y < tile.height; ++y) {
         std::memcpy(to, from, row_bytes);
         to += row_bytes;
@@ -94,6 +93,7 @@ class Decoder {
   }
 
   SpillWriter<TexelPage> pages_;
+  std::vector<std::byte> band_;
   std::vector<TexelPage> tile_;
 };
 

@@ -1,5 +1,6 @@
 #include "stream/seams/texel_answers.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -16,16 +17,23 @@ using Answers = KeyedGroups<TexelAnswer>;
 
 /// What one worker answers with.
 struct Answerer {
-  TileCache tiles;
+  TileWindow tiles;
   Partition<TexelAnswer>::Writer answers;
 
   void answer(std::span<const TexelRequest> requests, const KeyRanges& ranges) {
-    const LoadedTile& tile = tiles.at(requests[0].tile);
+    const LoadedTile tile = tiles.at(requests[0].tile);
     for (const TexelRequest& request : requests) {
       answers.push(ranges.bucket_of(request.part.seam), answer_to(request, tile));
     }
   }
 };
+
+/// How far to read ahead. Reading a few hundred kilobytes costs little more than reading a tile,
+/// but only where most tiles are wanted.
+std::uint64_t window_pages(std::uint64_t requests, std::uint64_t tiles) {
+  constexpr std::uint64_t kMostPages = 192;
+  return tiles == 0 ? 1 : std::min(kMostPages, kMostPages * requests / tiles);
+}
 
 std::uint64_t count(const Requests::Buckets& requests) {
   std::uint64_t records = 0;
@@ -40,17 +48,21 @@ Answers::Buckets answer_requests(const Engine& engine, const TexelStore& store,
   StageLog::Stage stage(engine.log, "seam answers", requests.spills.size());
   const std::size_t workers = engine.workers.count();
   const std::uint64_t free_bytes = engine.budget.free_bytes();
+  const std::uint64_t requested = count(requests);
+  const std::uint64_t affordable = free_bytes / 8 / workers / sizeof(TexelPage);
+  const std::uint64_t pages = std::max(
+      TileWindow::kLeastPages, std::min(affordable, window_pages(requested, store.tile_count())));
   const KeyRanges ranges =
-      Answers::plan(engine, count(requests), 0, static_cast<std::uint32_t>(edges),
-                    free_bytes / 8 * 7, free_bytes / 2, Answers::even_buckets(engine));
+      Answers::plan(engine, requested, 0, static_cast<std::uint32_t>(edges), free_bytes / 8 * 7,
+                    free_bytes / 2, Answers::even_buckets(engine));
   const Reservation memory = engine.budget.reserve(
       Partition<TexelAnswer>::memory_bytes(ranges.bucket_count(), workers, engine.block_bytes()) +
-          workers * TileCache::bytes(1),
+          workers * pages * sizeof(TexelPage),
       "distributing texels to seams");
   Partition<TexelAnswer> partition(engine.scratch, ranges.bucket_count());
   std::vector<Answerer> answerers;
   for (std::size_t i = 0; i < workers; ++i) {
-    answerers.push_back({TileCache(store, 1), Partition<TexelAnswer>::Writer(partition)});
+    answerers.push_back({TileWindow(store, pages), Partition<TexelAnswer>::Writer(partition)});
   }
   Requests groups(
       engine,

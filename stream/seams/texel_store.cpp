@@ -33,34 +33,41 @@ const StoredImage& TexelStore::image_of(std::uint32_t tile) const {
   return by_slot_[*(after - 1)];
 }
 
-LoadedTile TexelStore::load(std::uint32_t number, AlignedBytes& memory) const {
+LoadedTile TexelStore::find(std::uint32_t number) const {
   const StoredImage& image = image_of(number);
   const ImageTile tile = image.layout.tile(number - image.first_tile);
-  return {&image, tile, load_pages(image, tile, memory)};
+  return {&image, tile, resident(image, tile)};
 }
 
-const std::byte* TexelStore::load_pages(const StoredImage& image, const ImageTile& tile,
-                                        AlignedBytes& memory) const {
+const std::byte* TexelStore::resident(const StoredImage& image, const ImageTile& tile) const {
+  const Spill<TexelPage>& spill = spills_[image.spill];
+  const std::size_t per_block = spill.records_per_block();
+  const std::uint64_t page = image.first_page + tile.first_page;
+  const std::size_t in_block = page % per_block;
+  if (in_block + tile.pages > per_block) return nullptr;
+  const std::byte* const block = spill.scratch()->resident(spill.block(page / per_block));
+  return block == nullptr ? nullptr : block + in_block * sizeof(TexelPage);
+}
+
+void TexelStore::read(const StoredImage& image, std::uint64_t first_page, std::uint64_t pages,
+                      std::byte* to) const {
   const Spill<TexelPage>& spill = spills_[image.spill];
   const Scratch& scratch = *spill.scratch();
   const std::size_t per_block = spill.records_per_block();
-  std::uint64_t page = image.first_page + tile.first_page;
-  for (std::uint32_t done = 0; done < tile.pages;) {
-    const std::size_t block = page / per_block;
-    const std::size_t offset = page % per_block * sizeof(TexelPage);
-    const auto count = static_cast<std::uint32_t>(
-        std::min<std::size_t>(tile.pages - done, per_block - page % per_block));
-    const std::byte* const resident = scratch.resident(spill.block(block));
-    if (resident != nullptr && count == tile.pages) return resident + offset;
-    if (!memory) memory = AlignedBytes(kLargestTileBytes);
-    std::byte* const to = memory.data() + done * sizeof(TexelPage);
-    const std::size_t bytes = count * sizeof(TexelPage);
-    resident != nullptr ? static_cast<void>(std::memcpy(to, resident + offset, bytes))
-                        : scratch.read(spill.block(block), offset, to, bytes);
-    done += count;
+  for (std::uint64_t page = image.first_page + first_page; pages > 0;) {
+    const Scratch::BlockId block = spill.block(page / per_block);
+    const std::size_t in_block = page % per_block;
+    const auto count = std::min<std::uint64_t>(pages, per_block - in_block);
+    const std::size_t offset = in_block * sizeof(TexelPage), bytes = count * sizeof(TexelPage);
+    if (const std::byte* const memory = scratch.resident(block)) {
+      std::memcpy(to, memory + offset, bytes);
+    } else {
+      scratch.read(block, offset, to, bytes);
+    }
     page += count;
+    pages -= count;
+    to += bytes;
   }
-  return memory.data();
 }
 
 }  // namespace atlasgauge

@@ -34,7 +34,7 @@ struct LoadedTile {
 };
 
 inline constexpr std::uint64_t kLargestTileBytes =
-    TileLayout::kSide * TileLayout::kSide * texel_bytes(TexelKind::kFloat);
+    std::uint64_t{TileLayout::kSide} * TileLayout::kSide * texel_bytes(TexelKind::kFloat);
 
 /// The decoded images of a model, in scratch. Their tiles are numbered, one image after the other.
 class TexelStore {
@@ -44,14 +44,15 @@ class TexelStore {
 
   const StoredImage& image(SlotId slot) const { return by_slot_[raw(slot)]; }
   std::uint32_t tile_count() const { return tile_count_; }
-  /// Reads a tile into `memory`, which is made when first needed and has room for any tile, unless
-  /// it is resident.
-  LoadedTile load(std::uint32_t tile, AlignedBytes& memory) const;
+  /// A tile without its texels, unless they are resident.
+  LoadedTile find(std::uint32_t tile) const;
+  /// Reads pages of an image; `to` is aligned.
+  void read(const StoredImage& image, std::uint64_t first_page, std::uint64_t pages,
+            std::byte* to) const;
 
  private:
   const StoredImage& image_of(std::uint32_t tile) const;
-  const std::byte* load_pages(const StoredImage& image, const ImageTile& tile,
-                              AlignedBytes& memory) const;
+  const std::byte* resident(const StoredImage& image, const ImageTile& tile) const;
 
   std::vector<StoredImage> by_slot_;
   std::vector<Spill<TexelPage>> spills_;
@@ -74,7 +75,8 @@ class TileCache {
     Entry& entry = entries_[tile % entries_.size()];
     if (entry.number == tile && entry.loaded.image != nullptr) return entry.loaded;
     entry.number = tile;
-    entry.loaded = store_->load(tile, entry.memory);
+    entry.loaded = store_->find(tile);
+    if (entry.loaded.texels == nullptr) load(entry);
     return entry.loaded;
   }
 
@@ -85,8 +87,52 @@ class TileCache {
     AlignedBytes memory;
   };
 
+  void load(Entry& entry) const {
+    const ImageTile& tile = entry.loaded.tile;
+    if (!entry.memory) entry.memory = AlignedBytes(kLargestTileBytes);
+    store_->read(*entry.loaded.image, tile.first_page, tile.pages, entry.memory.data());
+    entry.loaded.texels = entry.memory.data();
+  }
+
   const TexelStore* store_;
   std::vector<Entry> entries_;
+};
+
+/// Tiles that are asked for in about their order, for one thread: those that follow are read along.
+class TileWindow {
+ public:
+  /// Its memory is that of the pages; it has room for any tile at least.
+  TileWindow(const TexelStore& store, std::uint64_t pages)
+      : store_(&store), pages_(std::max(pages, kLeastPages)) {}
+
+  /// Valid until the next call.
+  LoadedTile at(std::uint32_t number) {
+    LoadedTile loaded = store_->find(number);
+    if (loaded.texels != nullptr) return loaded;
+    const ImageTile& tile = loaded.tile;
+    const bool is_here =
+        image_ == loaded.image && first_ <= tile.first_page && tile.first_page + tile.pages <= end_;
+    if (!is_here) load(*loaded.image, tile.first_page);
+    loaded.texels = memory_.data() + (tile.first_page - first_) * sizeof(TexelPage);
+    return loaded;
+  }
+
+  static constexpr std::uint64_t kLeastPages = kLargestTileBytes / sizeof(TexelPage);
+
+ private:
+  void load(const StoredImage& image, std::uint64_t first_page) {
+    if (!memory_) memory_ = AlignedBytes(pages_ * sizeof(TexelPage));
+    image_ = &image;
+    first_ = first_page;
+    end_ = std::min(first_page + pages_, image.layout.page_count());
+    store_->read(image, first_, end_ - first_, memory_.data());
+  }
+
+  const TexelStore* store_;
+  std::uint64_t pages_;
+  AlignedBytes memory_;
+  const StoredImage* image_ = nullptr;
+  std::uint64_t first_ = 0, end_ = 0;
 };
 
 }  // namespace atlasgauge
