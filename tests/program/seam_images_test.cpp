@@ -250,7 +250,9 @@ TEST_F(SeamImagesTest, HeaderThatPromisesTooMuchCostsNothing) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("bomb.png"), std::string::npos) << result.err;
   EXPECT_EQ(report().at("seam_edges_unsampled"), 1);
-  if (!ATLASGAUGE_SANITIZED) EXPECT_LT(result.peak_resident_kib, 256 << 10);
+  if (!ATLASGAUGE_SANITIZED) {
+    EXPECT_LT(result.peak_resident_kib, 256 << 10);
+  }
 }
 
 TEST_F(SeamImagesTest, ImagesThatDoNotFitOnTheDiskAreRefusedBeforeWork) {
@@ -328,7 +330,9 @@ TEST_P(LargeSeamImageTest, PassesWithTheMemoryThatTheRefusalAsksFor) {
         measure({"--memory", std::to_string(mib) + "M", "--threads", threads});
     ASSERT_EQ(result.exit_code, 0) << refusal << result.err;
     EXPECT_EQ(report().at("seam_edges_unsampled"), GetParam().decodable ? 0 : 1) << result.err;
-    if (!ATLASGAUGE_SANITIZED) EXPECT_LT(result.peak_resident_kib, mib << 10) << threads;
+    if (!ATLASGAUGE_SANITIZED) {
+      EXPECT_LT(result.peak_resident_kib, mib << 10) << threads;
+    }
   }
 }
 

@@ -65,9 +65,10 @@ TEST(LocatedSeamsTest, NoneAreNone) {
 TEST(LocatedSeamsTest, EveryPositionIsFoundInAnyMemory) {
   constexpr std::uint32_t kVertices = 20'000;
   std::mt19937 random(3);
+  std::uniform_int_distribution<std::uint32_t> vertex(0, kVertices - 1);
   std::vector<SeamEdge> edges;
   for (std::uint32_t i = 0; i < 5000; ++i) {
-    const std::uint32_t a = random() % kVertices, b = random() % kVertices;
+    const std::uint32_t a = vertex(random), b = vertex(random);
     edges.push_back(edge_of(std::min(a, b), std::max(a, b)));
   }
   for (const std::uint64_t budget : {std::uint64_t{80'000}, std::uint64_t{64} << 20}) {

@@ -237,7 +237,9 @@ TEST(SeamSamplingTest, WhatIsNotRefusedBeforeTheWorkFindsItsMemory) {
       const EngineOptions options{.budget_bytes = 4 * kMiB, .workers = workers};
       const bool has_room = scene.has_room(options);
       ++(has_room ? passed : refused);
-      if (has_room) EXPECT_NO_THROW(scene.measure(options)) << decoder_bytes;
+      if (has_room) {
+        EXPECT_NO_THROW(scene.measure(options)) << decoder_bytes;
+      }
     }
     EXPECT_GT(passed, 0);
     EXPECT_GT(refused, 0);
