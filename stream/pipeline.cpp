@@ -201,7 +201,7 @@ MeshFacts stream_model(const Engine& engine, const std::string& path, const Stre
   const Reservation textures_memory =
       engine.budget.reserve(memory_bytes(facts.textures), "a model with so many textures");
   const SeamPlan seam_plan = plan_seams(path, options);
-  require_room_for_images(engine, facts.textures, seam_plan.decode);
+  require_room_for_seams(engine, facts.textures, seam_plan.decode);
 
   Weld weld = weld_vertices(engine, mesh);
   facts.duplicate_positions = weld.duplicates;

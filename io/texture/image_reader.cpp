@@ -1,6 +1,7 @@
 #include "io/texture/image_reader.hpp"
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -18,8 +19,17 @@ Function function_of_module(const char* symbol) {
   return reinterpret_cast<Function>(module_symbol(kImageModule, symbol));
 }
 
+/// The library puts several faults in as many lines; a message is one line.
+std::string in_one_line(std::string text) {
+  while (text.ends_with('\n')) text.pop_back();
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;) {
+    text.replace(at, 1, "; ");
+  }
+  return text;
+}
+
 [[noreturn]] void fail(const std::string& path, const ErrorText& error) {
-  throw Error(ErrorKind::kInput, path, 0, std::string("cannot read the image: ") + error.data());
+  throw Error(ErrorKind::kInput, path, 0, "cannot read the image: " + in_one_line(error.data()));
 }
 
 void close(void* image) {

@@ -20,15 +20,30 @@ TileLayout layout_of(const TextureSlot& slot) {
   return {*slot.size, slot.kind};
 }
 
-std::string described(const TextureSlot& slot) {
-  return fmt::format("{} ({} x {} texels)", slot.path, slot.size->width, slot.size->height);
+/// By how much to raise --memory for so many bytes more. As long as the engine grows with it, up to
+/// half of a raise goes to the resident pool, to larger blocks and to more threads
+/// (memory_plan.cpp).
+std::uint64_t raise_bytes(const Engine& engine, std::uint64_t missing_bytes) {
+  constexpr std::uint64_t kMostLostBytes = 512 << 20;
+  const std::uint64_t larger_blocks_bytes = (engine.workers.count() + 8) * engine.block_bytes();
+  return missing_bytes + std::min(2 * missing_bytes, kMostLostBytes) + larger_blocks_bytes;
 }
 
 /// Beyond what is spare, memory comes out of the budget.
 Reservation reserve(const Engine& engine, std::uint64_t bytes, const DecodePlan& plan,
                     const TextureSlot& largest) {
-  return engine.budget.reserve(bytes - std::min(bytes, plan.spare_bytes),
-                               "decoding the image " + described(largest));
+  const std::uint64_t from_budget_bytes = bytes - std::min(bytes, plan.spare_bytes);
+  const std::uint64_t free_bytes = engine.budget.free_bytes();
+  if (from_budget_bytes <= free_bytes) {
+    return engine.budget.reserve(from_budget_bytes, "decoding images");
+  }
+  const std::uint64_t missing_bytes = from_budget_bytes - free_bytes;
+  throw Error(
+      ErrorKind::kResource, largest.path, 0,
+      fmt::format("decoding this image ({} x {} texels) takes {} of memory, which is {} "
+                  "more than there is; raise --memory by {} MiB",
+                  largest.size->width, largest.size->height, format_bytes(bytes),
+                  format_bytes(missing_bytes), (raise_bytes(engine, missing_bytes) >> 20) + 1));
 }
 
 /// The slots that materials of the faces name.

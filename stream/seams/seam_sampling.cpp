@@ -58,6 +58,13 @@ void warn_of_nonfinite(std::uint64_t edges, const std::string& model, Warnings& 
 
 }  // namespace
 
+void require_room_for_seams(const Engine& engine, const TextureSlots& textures,
+                            const DecodePlan& plan) {
+  const Reservation memory =
+      engine.budget.reserve(own_bytes(engine, textures.slots.size()), "sampling seams");
+  require_room_for_images(engine, textures, plan);
+}
+
 SeamResults sample_seams(const Engine& engine, Spill<SeamCandidate> candidates,
                          const TextureSlots& textures, const SlotFrames& frames,
                          const SeamPlan& plan, Warnings& warnings, GroupSinks& sinks) {

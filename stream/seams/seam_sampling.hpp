@@ -32,6 +32,11 @@ struct SeamResults {
   SeamWork work;
 };
 
+/// To be called before the work of a run: see require_room_for_images. Whatever passes here finds
+/// its memory later.
+void require_room_for_seams(const Engine& engine, const TextureSlots& textures,
+                            const DecodePlan& plan);
+
 /// Measures the colours along seam edges (SPEC section 5), and hands the edges out. Consumes them.
 ///
 /// The two sides of an edge may lie anywhere in any two textures, so the texels come to the edges

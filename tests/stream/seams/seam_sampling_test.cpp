@@ -13,9 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "io/error.hpp"
 #include "tests/stream/mesh/stages.hpp"
+#include "tests/stream/seams/memory_textures.hpp"
 #include "tests/support/engine_fixture.hpp"
-#include "tests/support/memory_image.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -25,25 +26,7 @@ using Rgb = std::array<double, 3>;
 /// Textures whose seams are sampled.
 class Scene {
  public:
-  SlotId add(const MemoryImage& image) {
-    const std::string name = "image" + std::to_string(textures_.slots.size());
-    images_[name] = image;
-    TextureSlot& slot = textures_.slots.emplace_back();
-    slot.name = slot.path = name;
-    slot.size = image.header.size;
-    slot.readable = true;
-    slot.kind = image.header.kind;
-    slot.decoder_bytes = image.header.decoder_bytes;
-    textures_.has_images = true;
-    const SlotId id{static_cast<std::uint32_t>(textures_.slots.size() - 1)};
-    textures_.of_material.push_back(id);
-    SlotFrame frame;
-    frame.has_size = frame.readable = true;
-    frame.width = image.header.size.width;
-    frame.height = image.header.size.height;
-    frames_.push_back(frame);
-    return id;
-  }
+  SlotId add(const MemoryImage& image) { return textures_.add(image); }
 
   /// Both sides run from the edge's first vertex to its second; UVs.
   void seam(SlotId a, TexCoord a_from, TexCoord a_to, SlotId b, TexCoord b_from, TexCoord b_to) {
@@ -66,11 +49,11 @@ class Scene {
     wanted.decode.model = "model.obj";
     wanted.decode.open_image = [&](const std::string& path) {
       ++opened[path];
-      return open_from(images_)(path);
+      return textures_.open()(path);
     };
     Warnings warnings([&](const std::string& text) { warned.push_back(text); });
-    results = sample_seams(engine, spill_of(engine, edges), textures_, SlotFrames(frames_), wanted,
-                           warnings, groups);
+    results = sample_seams(engine, spill_of(engine, edges), textures_.slots(),
+                           SlotFrames(textures_.frames()), wanted, warnings, groups);
     texture_seams = records_of(results.textures);
     results.textures.clear();
     results.edges.clear();
@@ -80,8 +63,18 @@ class Scene {
     return groups.seam_edges;
   }
 
-  const std::map<std::string, MemoryImage>& images() const { return images_; }
-  const std::vector<SlotFrame>& frames() const { return frames_; }
+  /// Whether the check before the work finds room for it.
+  bool has_room(const EngineOptions& options) const {
+    TestEngine engine(options);
+    try {
+      require_room_for_seams(engine, textures_.slots(), plan.decode);
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
+  const MemoryTextures& textures() const { return textures_; }
 
   SeamPlan plan;
   std::vector<SeamCandidate> edges;
@@ -92,9 +85,7 @@ class Scene {
   std::uint64_t peak_scratch_bytes = 0;
 
  private:
-  TextureSlots textures_;
-  std::vector<SlotFrame> frames_;
-  std::map<std::string, MemoryImage> images_;
+  MemoryTextures textures_;
 };
 
 MemoryImage grey(std::uint32_t width, std::uint32_t height,
@@ -232,6 +223,29 @@ TEST(SeamSamplingTest, ImagesWithoutSeamsAreNotOpenedAndOthersOnce) {
   EXPECT_EQ(scene.results.work.texels_decoded, 80000U);
 }
 
+TEST(SeamSamplingTest, WhatIsNotRefusedBeforeTheWorkFindsItsMemory) {
+  constexpr std::uint64_t kMiB = 1 << 20;
+  for (const std::size_t workers : {1, 4}) {
+    int passed = 0, refused = 0;
+    for (std::uint64_t decoder_bytes = 3 * kMiB; decoder_bytes < 4 * kMiB;
+         decoder_bytes += 10'000) {
+      Scene scene;
+      MemoryImage image = constant(1, 100, 100);
+      image.header.decoder_bytes = decoder_bytes;
+      const SlotId slot = scene.add(image);
+      scene.seam(slot, {0, 0}, {1, 0}, slot, {0, 0.5F}, {1, 0.5F});
+      const EngineOptions options{.budget_bytes = 4 * kMiB, .workers = workers};
+      const bool has_room = scene.has_room(options);
+      ++(has_room ? passed : refused);
+      if (has_room) {
+        EXPECT_NO_THROW(scene.measure(options)) << decoder_bytes;
+      }
+    }
+    EXPECT_GT(passed, 0);
+    EXPECT_GT(refused, 0);
+  }
+}
+
 TEST(SeamSamplingTest, TexMetroComparesOppositeEnds) {
   Scene scene;
   scene.plan.texmetro = true;
@@ -281,7 +295,7 @@ class NaiveSampler {
 
  private:
   std::pair<Texel, Texel> segment(const SeamSide& side) const {
-    const SlotFrame& frame = scene_.frames()[raw(side.slot)];
+    const SlotFrame& frame = scene_.textures().frames()[raw(side.slot)];
     return {frame.texel(side.t[0]), frame.texel(side.t[1])};
   }
   static Texel at(const Texel& a, const Texel& b, double t) {
@@ -298,7 +312,7 @@ class NaiveSampler {
     return sum;
   }
   double texel(SlotId slot, double x, double y, int channel) const {
-    const MemoryImage& image = scene_.images().at("image" + std::to_string(raw(slot)));
+    const MemoryImage& image = scene_.textures().image(slot);
     const double w = image.header.size.width, h = image.header.size.height;
     const double column = x - std::floor(x / w) * w, from_bottom = y - std::floor(y / h) * h;
     const double scale = image.header.kind == TexelKind::kByte    ? 1
