@@ -34,7 +34,7 @@ struct LoadedTile {
 };
 
 inline constexpr std::uint64_t kLargestTileBytes =
-    TileLayout::kSide * TileLayout::kSide * texel_bytes(TexelKind::kFloat);
+    std::uint64_t{TileLayout::kSide} * TileLayout::kSide * texel_bytes(TexelKind::kFloat);
 
 /// The decoded images of a model, in scratch. Their tiles are numbered, one image after the other.
 class TexelStore {
