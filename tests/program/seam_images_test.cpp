@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <ostream>
 #include <set>
 #include <string>
 #include <vector>
@@ -112,6 +113,10 @@ struct BadImage {
   std::string test, name;
   std::function<void(const TempDir&, const std::string& name)> make;
 };
+
+void PrintTo(const BadImage& image, std::ostream* to) {
+  *to << image.name;
+}
 
 /// A good one of 60 x 50 texels, cut short.
 std::string cut_ppm() {
@@ -281,6 +286,10 @@ struct LargeImage {
   std::function<std::string()> content;
   std::uint64_t file_bytes = 0;  ///< zeros follow
 };
+
+void PrintTo(const LargeImage& image, std::ostream* to) {
+  *to << image.name;
+}
 
 std::vector<LargeImage> large_images() {
   return {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <numeric>
+#include <ostream>
 #include <vector>
 
 namespace atlasgauge {
