@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
+#include "io/image/image_reader.hpp"
 #include "io/obj/obj_reader.hpp"
-#include "io/texture/image_reader.hpp"
 #include "io/texture/texture_slots.hpp"
 #include "io/warnings.hpp"
 #include "stream/engine/engine.hpp"

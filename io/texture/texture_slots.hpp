@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/ids.hpp"
-#include "io/texture/image_header.hpp"
+#include "io/image/image_header.hpp"
 #include "io/warnings.hpp"
 
 namespace atlasgauge {

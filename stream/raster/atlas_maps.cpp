@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "io/file/safe_name.hpp"
-#include "io/texture/map_file.hpp"
-#include "io/texture/png_file.hpp"
+#include "io/image/png_file.hpp"
+#include "io/map/map_file.hpp"
 #include "stream/engine/keyed_groups.hpp"
 #include "stream/raster/bin_triangle.hpp"
 #include "stream/raster/map_preview.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/texture/image_reader.hpp"
+#include "io/image/image_reader.hpp"
 #include "io/texture/texture_slots.hpp"
 #include "io/warnings.hpp"
 #include "stream/engine/engine.hpp"

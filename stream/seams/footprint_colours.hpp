@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "io/texture/image_header.hpp"
+#include "io/image/image_header.hpp"
 #include "stream/seams/seam_path.hpp"
 #include "stream/seams/seam_rule.hpp"
 

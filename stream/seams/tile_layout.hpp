@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "io/texture/image_header.hpp"
+#include "io/image/image_header.hpp"
 #include "stream/engine/scratch.hpp"
 
 namespace atlasgauge {

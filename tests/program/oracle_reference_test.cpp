@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "io/texture/image_module.hpp"
-#include "io/texture/image_reader.hpp"
+#include "io/image/image_module.hpp"
+#include "io/image/image_reader.hpp"
 #include "tests/support/module_folder.hpp"
 #include "tests/support/oracle_comparison.hpp"
 #include "tests/support/reference_reports.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "io/error.hpp"
-#include "io/texture/image_reader.hpp"
+#include "io/image/image_reader.hpp"
 #include "stream/raster/osmesa_module.hpp"
 #include "stream/raster/raster.hpp"
 #include "tests/support/module_folder.hpp"

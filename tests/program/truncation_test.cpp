@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "io/error.hpp"
-#include "io/texture/image_reader.hpp"
+#include "io/image/image_reader.hpp"
 #include "tests/support/compressed.hpp"
 #include "tests/support/oracle_comparison.hpp"
 #include "tests/support/temp_dir.hpp"

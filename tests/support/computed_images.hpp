@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "io/texture/image_reader.hpp"
+#include "io/image/image_reader.hpp"
 
 namespace atlasgauge {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "io/error.hpp"
-#include "io/texture/image_reader.hpp"
+#include "io/image/image_reader.hpp"
 
 namespace atlasgauge {
 

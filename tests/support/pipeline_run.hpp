@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/command_line.hpp"
-#include "io/texture/image_reader.hpp"
+#include "io/image/image_reader.hpp"
 #include "io/texture/texture_slots.hpp"
 #include "measures/base/report.hpp"
 #include "stream/engine/stage_log.hpp"

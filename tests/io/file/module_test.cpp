@@ -6,7 +6,7 @@
 #include <string>
 
 #include "io/error.hpp"
-#include "io/texture/image_module.hpp"
+#include "io/image/image_module.hpp"
 #include "tests/support/module_folder.hpp"
 #include "tests/support/temp_dir.hpp"
 

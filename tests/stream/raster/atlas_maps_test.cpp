@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/texture/image_module.hpp"
+#include "io/image/image_module.hpp"
 #include "stream/raster/bin_triangle.hpp"
 #include "stream/raster/map_preview.hpp"
 #include "stream/raster/scalar_raster.hpp"

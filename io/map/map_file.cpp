@@ -1,4 +1,4 @@
-#include "io/texture/map_file.hpp"
+#include "io/map/map_file.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "io/error.hpp"
-#include "io/texture/exr_output.hpp"
+#include "io/map/exr_output.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "io/texture/image_header.hpp"
+#include "io/image/image_header.hpp"
 
 namespace atlasgauge {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "io/texture/map_channel.hpp"
-#include "io/texture/mip_tiles.hpp"
+#include "io/map/map_channel.hpp"
+#include "io/map/mip_tiles.hpp"
 #include "io/texture/texture_slots.hpp"
 
 namespace atlasgauge {

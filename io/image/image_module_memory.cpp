@@ -1,10 +1,10 @@
-#include "io/texture/image_module_memory.hpp"
+#include "io/image/image_module_memory.hpp"
 
 #include <algorithm>
 #include <initializer_list>
 #include <limits>
 
-#include "io/texture/image_module_bytes.hpp"
+#include "io/image/image_module_bytes.hpp"
 
 namespace atlasgauge {
 namespace {

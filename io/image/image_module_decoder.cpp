@@ -1,4 +1,4 @@
-#include "io/texture/image_module_decoder.hpp"
+#include "io/image/image_module_decoder.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "io/texture/image_module_bytes.hpp"
-#include "io/texture/image_module_exr.hpp"
-#include "io/texture/image_module_faults.hpp"
-#include "io/texture/image_module_memory.hpp"
-#include "io/texture/image_module_whole.hpp"
+#include "io/image/image_module_bytes.hpp"
+#include "io/image/image_module_exr.hpp"
+#include "io/image/image_module_faults.hpp"
+#include "io/image/image_module_memory.hpp"
+#include "io/image/image_module_whole.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "io/texture/image_header.hpp"
+#include "io/image/image_header.hpp"
 
 namespace atlasgauge {
 

@@ -1,4 +1,4 @@
-#include "io/texture/exr_output.hpp"
+#include "io/map/exr_output.hpp"
 
 #include <algorithm>
 #include <new>

@@ -1,4 +1,4 @@
-#include "io/texture/png_file.hpp"
+#include "io/image/png_file.hpp"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/error.hpp"
-#include "io/texture/image_module.hpp"
+#include "io/image/image_module.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/module_folder.hpp"

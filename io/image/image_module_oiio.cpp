@@ -3,9 +3,9 @@
 #include <memory>
 #include <string>
 
-#include "io/texture/image_header.hpp"
-#include "io/texture/image_module_decoder.hpp"
-#include "io/texture/image_module_guard.hpp"
+#include "io/image/image_header.hpp"
+#include "io/image/image_module_decoder.hpp"
+#include "io/image/image_module_guard.hpp"
 
 using atlasgauge::Decoder;
 using atlasgauge::ImageHeader;

@@ -1,4 +1,4 @@
-#include "io/texture/image_module_jpeg.hpp"
+#include "io/image/image_module_jpeg.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,11 +1,11 @@
-#include "io/texture/image_module_exr.hpp"
+#include "io/image/image_module_exr.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <stdexcept>
 
-#include "io/texture/image_module_bytes.hpp"
+#include "io/image/image_module_bytes.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -1,10 +1,10 @@
-#include "io/texture/image_module_whole.hpp"
+#include "io/image/image_module_whole.hpp"
 
 #include <cctype>
 #include <cstdint>
 
-#include "io/texture/image_module_bytes.hpp"
-#include "io/texture/image_module_jpeg.hpp"
+#include "io/image/image_module_bytes.hpp"
+#include "io/image/image_module_jpeg.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/texture/image_header.hpp"
+#include "io/image/image_header.hpp"
 
 namespace atlasgauge {
 

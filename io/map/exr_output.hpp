@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "io/file/unnamed_file.hpp"
-#include "io/texture/map_channel.hpp"
+#include "io/map/map_channel.hpp"
 #include "io/texture/texture_slots.hpp"
 
 namespace atlasgauge {

@@ -1,4 +1,4 @@
-#include "io/texture/image_module_bytes.hpp"
+#include "io/image/image_module_bytes.hpp"
 
 namespace atlasgauge {
 

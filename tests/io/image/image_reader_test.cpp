@@ -1,4 +1,4 @@
-#include "io/texture/image_reader.hpp"
+#include "io/image/image_reader.hpp"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "io/error.hpp"
-#include "io/texture/image_module.hpp"
+#include "io/image/image_module.hpp"
 #include "tests/support/module_folder.hpp"
 #include "tests/support/temp_dir.hpp"
 

@@ -1,4 +1,4 @@
-#include "io/texture/image_reader.hpp"
+#include "io/image/image_reader.hpp"
 
 #include <array>
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 #include "io/error.hpp"
 #include "io/file/module.hpp"
-#include "io/texture/image_module.hpp"
+#include "io/image/image_module.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "io/texture/image_header.hpp"
-#include "io/texture/image_module_bytes.hpp"
+#include "io/image/image_header.hpp"
+#include "io/image/image_module_bytes.hpp"
 
 namespace atlasgauge {
 

@@ -1,4 +1,4 @@
-#include "io/texture/png_file.hpp"
+#include "io/image/png_file.hpp"
 
 #include <array>
 #include <cstddef>
@@ -7,7 +7,7 @@
 #include "io/error.hpp"
 #include "io/file/module.hpp"
 #include "io/file/output_file.hpp"
-#include "io/texture/image_module.hpp"
+#include "io/image/image_module.hpp"
 
 namespace atlasgauge {
 namespace {

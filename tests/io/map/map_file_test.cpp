@@ -1,4 +1,4 @@
-#include "io/texture/map_file.hpp"
+#include "io/map/map_file.hpp"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

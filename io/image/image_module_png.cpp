@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/texture/image_module_guard.hpp"
+#include "io/image/image_module_guard.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "io/file/module.hpp"
-#include "io/texture/image_header.hpp"
+#include "io/image/image_header.hpp"
 
 namespace atlasgauge {
 

@@ -1,9 +1,9 @@
-#include "io/texture/image_module_faults.hpp"
+#include "io/image/image_module_faults.hpp"
 
 #include <cstdint>
 #include <stdexcept>
 
-#include "io/texture/image_module_bytes.hpp"
+#include "io/image/image_module_bytes.hpp"
 
 namespace atlasgauge {
 namespace {
