@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <mutex>
 #include <random>
 #include <string>
 #include <tuple>
@@ -47,8 +48,12 @@ class Scene {
     GroupCollector groups;
     SeamPlan wanted = plan;
     wanted.decode.model = "model.obj";
+    std::mutex mutex;
     wanted.decode.open_image = [&](const std::string& path) {
-      ++opened[path];
+      {
+        const std::lock_guard lock(mutex);
+        ++opened[path];
+      }
       return textures_.open()(path);
     };
     Warnings warnings([&](const std::string& text) { warned.push_back(text); });
