@@ -26,7 +26,7 @@ constexpr std::uint64_t kMiB = 1 << 20;
 /// Counts how often images are opened, and how many are open at a time.
 class OpenCount {
  public:
-  OpenImage counting(OpenImage open) {
+  OpenImage counting(const OpenImage& open) {
     return [this, open](const std::string& path) -> std::unique_ptr<ImageRows> {
       {
         const std::lock_guard lock(mutex_);

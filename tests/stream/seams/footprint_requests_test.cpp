@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <ostream>
@@ -95,10 +96,12 @@ TEST(FootprintRequestsTest, CoordinatesRepeatAnyNumberOfTimes) {
 
 TEST(FootprintRequestsTest, AnswersHoldTheTexelsAskedFor) {
   const StoredImage image = image_of({64, 64});
-  std::vector<std::uint8_t> texels(64 * 64 * 3);
-  const auto texel = [&](int column, int row) { return texels.data() + (row * 64 + column) * 3; };
-  for (int row = 0; row < 64; ++row) {
-    for (int column = 0; column < 64; ++column) {
+  std::vector<std::uint8_t> texels(std::size_t{64} * 64 * 3);
+  const auto texel = [&](std::size_t column, std::size_t row) {
+    return texels.data() + (row * 64 + column) * 3;
+  };
+  for (std::size_t row = 0; row < 64; ++row) {
+    for (std::size_t column = 0; column < 64; ++column) {
       texel(column, row)[0] = static_cast<std::uint8_t>(column);
       texel(column, row)[1] = static_cast<std::uint8_t>(row);
     }
@@ -108,7 +111,7 @@ TEST(FootprintRequestsTest, AnswersHoldTheTexelsAskedFor) {
   request_footprint(image, Footprint{10, 20, 0, 0}, FootprintPart{}, [&](const TexelRequest& r) {
     const TexelAnswer answer = answer_to(r, tile);
     EXPECT_EQ(answer.part.corners, 15);
-    for (int c = 0; c < 4; ++c) {
+    for (std::size_t c = 0; c < 4; ++c) {
       EXPECT_EQ(answer.texels[3 * c], 10 + c % 2);
       EXPECT_EQ(answer.texels[3 * c + 1], 63 - 20 - c / 2);
     }

@@ -166,16 +166,17 @@ TEST_F(LongSeamsTest, OneTileOfMemoryIsEnough) {
   add(13'108, 3, {-2, 0.1F}, {5, 9});
   const std::vector<SeamDistances> want = expected();
   // A page of edges, a block, a tile, and little more: not two tiles.
-  const EngineOptions tight{.budget_bytes = 512 * 72 + 4096 + kLargestTileBytes + 40'000,
-                            .workers = 1};
-  ASSERT_LT(tight.budget_bytes, 2 * kLargestTileBytes + 512 * 72 + 4096);
+  const EngineOptions tight{
+      .budget_bytes = std::uint64_t{512} * 72 + 4096 + kLargestTileBytes + 40'000, .workers = 1};
+  ASSERT_LT(tight.budget_bytes, 2 * kLargestTileBytes + std::uint64_t{512} * 72 + 4096);
   EXPECT_EQ(along(tight).at(0), want[0]);
 }
 
 TEST_F(LongSeamsTest, TooLittleMemoryIsRefused) {
   add(13'108, 3, {-2, 0.1F}, {5, 9});
-  EXPECT_THROW(along({.budget_bytes = 512 * 72 + 4096 + kLargestTileBytes / 2, .workers = 1}),
-               Error);
+  EXPECT_THROW(
+      along({.budget_bytes = std::uint64_t{512} * 72 + 4096 + kLargestTileBytes / 2, .workers = 1}),
+      Error);
 }
 
 TEST_F(LongSeamsTest, NoLongEdgesTakeNoMemory) {
