@@ -52,6 +52,7 @@ SeamDistances distances_of(const SeamEdges& edges, const TexelStore& store,
 void compare_sides(const Engine& engine, const SeamEdges& edges, const TexelStore& store,
                    KeyedGroups<TexelAnswer>::Buckets answers, const OnCompared& on_edge,
                    SharedSpill<std::uint32_t>::Writer& left_over) {
+  if (answers.spills.empty()) return;
   StageLog::Stage stage(engine.log, "seam colours", answers.spills.size());
   const std::uint64_t page_bytes = PageLayout<SeamCandidate>::kBytes;
   const Reservation memory =

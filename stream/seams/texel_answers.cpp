@@ -49,9 +49,11 @@ Answers::Buckets answer_requests(const Engine& engine, const TexelStore& store,
   const std::size_t workers = engine.workers.count();
   const std::uint64_t free_bytes = engine.budget.free_bytes();
   const std::uint64_t requested = count(requests);
+  if (requested == 0) return {};
   const std::uint64_t affordable = free_bytes / 8 / workers / sizeof(TexelPage);
-  const std::uint64_t pages = std::max(
-      TileWindow::kLeastPages, std::min(affordable, window_pages(requested, store.tile_count())));
+  const std::uint64_t pages =
+      std::max(store.largest_tile_pages(),
+               std::min(affordable, window_pages(requested, store.tile_count())));
   const KeyRanges ranges =
       Answers::plan(engine, requested, 0, static_cast<std::uint32_t>(edges), free_bytes / 8 * 7,
                     free_bytes / 2, Answers::even_buckets(engine));

@@ -22,6 +22,8 @@ TexelStore::TexelStore(std::vector<StoredImage> by_slot, std::vector<Spill<Texel
                   "the textures have more than 2^32 tiles of 64 x 64 texels, which is the limit");
     }
     decoded_.push_back(slot);
+    const std::uint64_t pages = image.layout.tile(0).pages;  // no tile is larger than the first
+    largest_tile_pages_ = std::max(largest_tile_pages_, pages);
   }
   tile_count_ = static_cast<std::uint32_t>(tiles);
 }

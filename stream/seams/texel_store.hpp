@@ -44,6 +44,8 @@ class TexelStore {
 
   const StoredImage& image(SlotId slot) const { return by_slot_[raw(slot)]; }
   std::uint32_t tile_count() const { return tile_count_; }
+  /// Of any image.
+  std::uint64_t largest_tile_pages() const { return largest_tile_pages_; }
   /// A tile without its texels, unless they are resident.
   LoadedTile find(std::uint32_t tile) const;
   /// Reads pages of an image; `to` is aligned.
@@ -58,6 +60,7 @@ class TexelStore {
   std::vector<Spill<TexelPage>> spills_;
   std::vector<std::uint32_t> decoded_;  ///< slots, in the order of their tiles
   std::uint32_t tile_count_ = 0;
+  std::uint64_t largest_tile_pages_ = 0;
 };
 
 /// Some tiles in memory, each in the only place where it may be, for one thread.
@@ -101,9 +104,9 @@ class TileCache {
 /// Tiles that are asked for in about their order, for one thread: those that follow are read along.
 class TileWindow {
  public:
-  /// Its memory is that of the pages; it has room for any tile at least.
+  /// Its memory is that of the pages, but it has room for any tile at least.
   TileWindow(const TexelStore& store, std::uint64_t pages)
-      : store_(&store), pages_(std::max(pages, kLeastPages)) {}
+      : store_(&store), pages_(std::max(pages, store.largest_tile_pages())) {}
 
   /// Valid until the next call.
   LoadedTile at(std::uint32_t number) {
@@ -116,8 +119,6 @@ class TileWindow {
     loaded.texels = memory_.data() + (tile.first_page - first_) * sizeof(TexelPage);
     return loaded;
   }
-
-  static constexpr std::uint64_t kLeastPages = kLargestTileBytes / sizeof(TexelPage);
 
  private:
   void load(const StoredImage& image, std::uint64_t first_page) {
