@@ -128,6 +128,7 @@ class ImageDecoding {
       if (!wanted[slot]) continue;
       (need_of(slot) <= share_bytes ? together : alone).push_back(slot);
     }
+    if (together.empty() && alone.empty()) return;
     StageLog::Stage stage(engine_.log, "decode images", together.size() + alone.size());
     decode_together(std::move(together), stage);
     for (const std::uint32_t slot : alone) {

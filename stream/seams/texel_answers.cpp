@@ -45,11 +45,11 @@ std::uint64_t count(const Requests::Buckets& requests) {
 
 Answers::Buckets answer_requests(const Engine& engine, const TexelStore& store,
                                  Requests::Buckets requests, std::uint64_t edges) {
-  StageLog::Stage stage(engine.log, "seam answers", requests.spills.size());
   const std::size_t workers = engine.workers.count();
   const std::uint64_t free_bytes = engine.budget.free_bytes();
   const std::uint64_t requested = count(requests);
   if (requested == 0) return {};
+  StageLog::Stage stage(engine.log, "seam answers", requests.spills.size());
   const std::uint64_t affordable = free_bytes / 8 / workers / sizeof(TexelPage);
   const std::uint64_t pages =
       std::max(store.largest_tile_pages(),

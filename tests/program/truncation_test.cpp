@@ -167,6 +167,7 @@ class ImageTruncationTest : public TruncationTest {
     TruncationTest::SetUp();
     const auto folder = std::filesystem::path(ATLASGAUGE_PROGRAM).parent_path();
     ASSERT_EQ(::setenv("ATLASGAUGE_MODULE_DIR", folder.c_str(), 1), 0);
+    config_.engine_bytes = std::uint64_t{64} << 20;  // of which decoders take some
     config_.probe = read_image_header;
     config_.open_image = open_image;
     dir_.write("model.mtl", "newmtl first\nmap_Kd a.png\n");
