@@ -108,7 +108,8 @@ void measure(const Options& options) {
   require_resources_for(options.model, plan, options.tmp_dir, read_image_header);
   const Workers workers(plan.workers);
   MemoryBudget budget(plan.engine_bytes);
-  Scratch scratch({options.tmp_dir, plan.block_bytes, plan.resident_bytes}, budget);
+  Scratch scratch({options.tmp_dir, plan.block_bytes, plan.resident_bytes, plan.queued_blocks},
+                  budget);
   ProgressBar bar(shows_progress(options));
   StageLog log(scratch, workers,
                [&](const std::string& stage, double done) { bar.update(stage, done); });

@@ -27,6 +27,10 @@ constexpr std::uint64_t kLargestBlockBytes = 1 * kMiB;
 /// Blocks that the engine's memory holds: enough for the buckets of one distribution, and for
 /// labels of as many faces as an index can number.
 constexpr std::uint64_t kBlocksPerEngine = 512;
+/// Blocks on their way to and from disk, at most, and the share of the engine that they may take.
+constexpr std::uint64_t kQueuedBlocksPerWorker = 6;
+constexpr std::uint64_t kMostQueuedBlocks = 64;
+constexpr std::uint64_t kQueueShare = 16;
 /// The least share of a thread when their number is not given.
 constexpr std::uint64_t kEngineBytesPerThread = 8 * kMiB;
 
@@ -94,6 +98,8 @@ MemoryPlan plan_memory(const MemoryWishes& wishes, std::size_t cpus) {
   if (plan.block_bytes < kSmallestBlockBytes || plan.block_bytes % Scratch::kAlignment != 0) {
     throw Error(ErrorKind::kUsage, "--block-bytes must be a multiple of 4096");
   }
+  plan.queued_blocks = std::min({kQueuedBlocksPerWorker * plan.workers, kMostQueuedBlocks,
+                                 plan.engine_bytes / kQueueShare / plan.block_bytes});
   return plan;
 }
 

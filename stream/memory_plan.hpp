@@ -15,8 +15,9 @@ struct MemoryPlan {
   std::uint64_t resident_bytes = 0;  ///< of these, the blocks of scratch that stay in memory
   /// What the limit leaves beside the engine and the process itself, for images that are decoded.
   std::uint64_t spare_bytes = 0;
-  std::size_t block_bytes = 0;  ///< of scratch
-  std::size_t workers = 0;      ///< threads
+  std::size_t block_bytes = 0;    ///< of scratch
+  std::size_t queued_blocks = 0;  ///< of the engine's memory, for blocks under way to or from disk
+  std::size_t workers = 0;        ///< threads
 };
 
 struct MemoryWishes {

@@ -48,9 +48,6 @@ void take_samples(GroupSink& sink, std::span<const Triangle> triangles, Triangle
 
 void note_facts(std::span<const Triangle> triangles, const StreamOptions& options,
                 TriangleOutput& output) {
-  output.facts.clear();
-  output.faces.clear();
-  output.distortions.clear();
   for (const Triangle& triangle : triangles) {
     output.facts.emplace_back(triangle);
     output.faces.emplace_back(triangle);
@@ -58,6 +55,12 @@ void note_facts(std::span<const Triangle> triangles, const StreamOptions& option
       output.distortions.push_back(static_cast<float>(options.distortion_of(triangle)));
     }
   }
+}
+
+template <class T>
+void append_and_clear(SpillWriter<T>& writer, std::vector<T>& records) {
+  writer.append(records);
+  records.clear();
 }
 
 TriangleResults stream_triangles(const Engine& engine, const StreamOptions& options,
@@ -92,9 +95,9 @@ TriangleResults stream_triangles(const Engine& engine, const StreamOptions& opti
     results.edges->add(worker, triangles, frames);
   };
   visitor.commit = [&](std::size_t worker) {
-    facts.append(outputs[worker].facts);
-    faces.append(outputs[worker].faces);
-    distortions.append(outputs[worker].distortions);
+    append_and_clear(facts, outputs[worker].facts);
+    append_and_clear(faces, outputs[worker].faces);
+    append_and_clear(distortions, outputs[worker].distortions);
   };
   visit_triangles(engine, mesh, weld, slots, frames, engine.budget.free_bytes() / 8 * 7, stage,
                   visitor);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "stream/engine/block_visit.hpp"
 #include "stream/engine/fixed_sum.hpp"
 
 namespace atlasgauge {
@@ -108,9 +109,8 @@ class Selection {
 
   template <class Use>
   void visit_samples(Use use) {
-    std::vector<BlockBuffer> buffers(engine_.workers.count());
-    engine_.workers.for_each(samples_.block_count(), [&](std::size_t worker, std::size_t block) {
-      for (const Sample& sample : samples_.load(block, buffers[worker])) {
+    visit_blocks(engine_, samples_, [&](std::size_t worker, std::size_t, auto samples) {
+      for (const Sample& sample : samples) {
         const std::uint64_t key = key_of(sample.value);
         const Interval* interval = interval_of(key);
         if (interval != nullptr) use(worker, *interval, key, sample);
@@ -238,9 +238,8 @@ SampleSet SampleSet::up_to(const Engine& engine, double cutoff, const OnCut& on_
       "samples up to a cutoff");
   SampleStore kept(engine.scratch);
   std::vector<SampleStore::Writer> writers(workers, SampleStore::Writer(kept));
-  std::vector<BlockBuffer> buffers(workers);
-  engine.workers.for_each(samples_.block_count(), [&](std::size_t worker, std::size_t block) {
-    for (const Sample& sample : samples_.load(block, buffers[worker])) {
+  visit_blocks(engine, samples_, [&](std::size_t worker, std::size_t, auto samples) {
+    for (const Sample& sample : samples) {
       sample.value <= cutoff ? writers[worker].push(sample) : on_cut(worker, sample);
     }
   });

@@ -7,19 +7,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <filesystem>
-#include <new>
 #include <system_error>
 
 #include "io/error.hpp"
 
 namespace atlasgauge {
 namespace {
-
-std::size_t rounded_up(std::size_t bytes) {
-  return (bytes + Scratch::kAlignment - 1) / Scratch::kAlignment * Scratch::kAlignment;
-}
 
 /// A file that has no name from the start, or loses it at once where the file system needs one.
 int open_unnamed(const std::string& directory, int flags) {
@@ -35,21 +29,16 @@ int open_unnamed(const std::string& directory, int flags) {
 
 }  // namespace
 
-AlignedBytes::AlignedBytes(std::size_t bytes) {
-  data_.reset(static_cast<std::byte*>(std::aligned_alloc(Scratch::kAlignment, rounded_up(bytes))));
-  if (data_ == nullptr) throw std::bad_alloc();
-}
-
-void AlignedBytes::Free::operator()(std::byte* p) const {
-  std::free(p);
-}
-
 Scratch::Scratch(const Options& options, MemoryBudget& budget)
     : directory_(options.directory),
-      block_bytes_(rounded_up(options.block_bytes)),
-      resident_blocks_(static_cast<std::uint32_t>(options.resident_bytes / block_bytes_)) {
+      block_bytes_(AlignedBytes::rounded_up(options.block_bytes)),
+      resident_blocks_(static_cast<std::uint32_t>(options.resident_bytes / block_bytes_)),
+      queued_blocks_(options.queued_blocks) {
   spare_buffers_.reserve(kSpareBuffers);
   free_resident_.reserve(resident_blocks_);
+  if (queued_blocks_ > 0) {
+    queue_reservation_ = budget.reserve(queued_blocks_ * block_bytes_, "transfers of scratch");
+  }
   if (resident_blocks_ == 0) return;
   const std::uint64_t pool_bytes = std::uint64_t{resident_blocks_} * block_bytes_;
   pool_reservation_ = budget.reserve(pool_bytes, "the resident part of scratch");
@@ -63,6 +52,22 @@ void Scratch::open_file() {
     throw Error(ErrorKind::kResource, directory_, 0,
                 "cannot make a scratch file: " + errno_text() +
                     "; give a writable directory with --tmp-dir");
+  }
+  if (queued_blocks_ > 0) start_queue();
+}
+
+/// Where the system gives no more threads, all transfers are done at once.
+void Scratch::start_queue() {
+  const TransferQueue::Device device{
+      [this](BlockId block, const std::byte* from, std::size_t bytes) {
+        write_now(block, from, bytes);
+      },
+      [this](BlockId block, std::byte* to, std::size_t bytes) { read_now(block, 0, to, bytes); }};
+  try {
+    owned_queue_ = std::make_unique<TransferQueue>(queued_blocks_, block_bytes_, device);
+    queue_ = owned_queue_.get();
+  } catch (const std::system_error&) {
+    return;
   }
 }
 
@@ -103,6 +108,7 @@ void Scratch::make_room_for_freed_blocks() {
 }
 
 void Scratch::free(BlockId block) noexcept {
+  if (block >= resident_blocks_ && queue_ != nullptr) queue_.load()->forget(block);
   const std::lock_guard lock(mutex_);
   --live_blocks_;
   (block < resident_blocks_ ? free_resident_ : free_on_disk_).push_back(block);
@@ -143,7 +149,31 @@ void Scratch::leave_direct_io() const {
 }
 
 void Scratch::write(BlockId block, const std::byte* from, std::size_t bytes) {
-  const std::size_t size = rounded_up(bytes);
+  if (queue_ != nullptr) queue_.load()->settle(block);
+  write_now(block, from, bytes);
+}
+
+void Scratch::read(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const {
+  if (queue_ != nullptr) queue_.load()->settle(block);
+  read_now(block, offset, to, bytes);
+}
+
+void Scratch::write_behind(BlockId block, AlignedBytes& memory, std::size_t bytes) {
+  if (queue_ == nullptr) return write_now(block, memory.data(), bytes);
+  queue_.load()->write(block, memory, bytes);
+}
+
+void Scratch::read_ahead(BlockId block, std::size_t bytes) {
+  if (block >= resident_blocks_ && queue_ != nullptr) queue_.load()->read_ahead(block, bytes);
+}
+
+void Scratch::load(BlockId block, AlignedBytes& memory, std::size_t bytes) {
+  if (queue_ != nullptr && queue_.load()->take(block, memory)) return;
+  read_now(block, 0, memory.data(), bytes);
+}
+
+void Scratch::write_now(BlockId block, const std::byte* from, std::size_t bytes) {
+  const std::size_t size = AlignedBytes::rounded_up(bytes);
   transfer_all(size, "write scratch", [&](std::size_t done) {
     return ::pwrite(file_.get(), from + done, size - done,
                     static_cast<off_t>(file_offset(block) + done));
@@ -152,8 +182,8 @@ void Scratch::write(BlockId block, const std::byte* from, std::size_t bytes) {
   written_bytes_ += size;
 }
 
-void Scratch::read(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const {
-  const std::size_t size = rounded_up(bytes);
+void Scratch::read_now(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const {
+  const std::size_t size = AlignedBytes::rounded_up(bytes);
   transfer_all(bytes, "read scratch back", [&](std::size_t done) {
     return ::pread(file_.get(), to + done, size - done,
                    static_cast<off_t>(file_offset(block) + offset + done));

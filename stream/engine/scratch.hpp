@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -9,24 +10,11 @@
 #include <vector>
 
 #include "io/file/descriptor.hpp"
+#include "stream/engine/aligned_bytes.hpp"
 #include "stream/engine/budget.hpp"
+#include "stream/engine/transfer_queue.hpp"
 
 namespace atlasgauge {
-
-/// Memory aligned for direct I/O.
-class AlignedBytes {
- public:
-  AlignedBytes() = default;
-  explicit AlignedBytes(std::size_t bytes);
-  std::byte* data() const { return data_.get(); }
-  explicit operator bool() const { return data_ != nullptr; }
-
- private:
-  struct Free {
-    void operator()(std::byte* p) const;
-  };
-  std::unique_ptr<std::byte, Free> data_;
-};
 
 /// Where everything that does not fit in memory goes: one store of equal blocks.
 ///
@@ -38,16 +26,19 @@ class AlignedBytes {
 /// The file is opened for direct I/O where the file system allows: pages that pass through the page
 /// cache cost several times more CPU. Where the file system has no files without a name, it has one
 /// between two system calls: a signal just then would leave an empty file.
+/// Whole blocks may be written behind and read ahead of the stage that computes; without queued
+/// blocks that is done at once.
 /// Thread-safe; distinct blocks may be read and written at the same time.
 class Scratch {
  public:
   using BlockId = std::uint32_t;
-  static constexpr std::size_t kAlignment = 4096;
+  static constexpr std::size_t kAlignment = AlignedBytes::kAlignment;
 
   struct Options {
     std::string directory;
     std::size_t block_bytes = 256 << 10;  ///< multiple of kAlignment
     std::uint64_t resident_bytes = 0;     ///< size of the resident pool; reserved from the budget
+    std::size_t queued_blocks = 0;        ///< for transfers under way; reserved from the budget
   };
 
   Scratch(const Options& options, MemoryBudget& budget);
@@ -72,6 +63,13 @@ class Scratch {
   /// up to the next multiple of kAlignment.
   void read(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const;
 
+  /// Writes a block some time before it is read. `memory` has another block's worth afterwards.
+  void write_behind(BlockId block, AlignedBytes& memory, std::size_t bytes);
+  /// Begins to read a block that will be loaded soon; a resident one needs no reading.
+  void read_ahead(BlockId block, std::size_t bytes);
+  /// Reads the first `bytes` of a block on disk, or takes what was read ahead.
+  void load(BlockId block, AlignedBytes& memory, std::size_t bytes);
+
   /// What blocks can hold in all, those in use included: the pool, the file, and the free space of
   /// its file system; the largest number if that cannot be told.
   std::uint64_t room_bytes() const;
@@ -86,6 +84,9 @@ class Scratch {
  private:
   std::uint64_t file_offset(BlockId block) const;
   void open_file();
+  void start_queue();
+  void write_now(BlockId block, const std::byte* from, std::size_t bytes);
+  void read_now(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const;
   void make_room_for_freed_blocks();
   template <class Transfer>
   void transfer_all(std::size_t bytes, const char* what, Transfer transfer) const;
@@ -94,7 +95,8 @@ class Scratch {
   const std::string directory_;
   const std::size_t block_bytes_;
   const std::uint32_t resident_blocks_;
-  Reservation pool_reservation_;
+  const std::size_t queued_blocks_;
+  Reservation pool_reservation_, queue_reservation_;
   AlignedBytes pool_;
   Descriptor file_;
 
@@ -111,6 +113,9 @@ class Scratch {
   std::uint64_t spilled_blocks_ = 0;
   std::uint64_t written_bytes_ = 0;
   mutable std::uint64_t read_bytes_ = 0;
+
+  std::atomic<TransferQueue*> queue_{nullptr};  ///< once there is a file
+  std::unique_ptr<TransferQueue> owned_queue_;
 };
 
 /// Memory for one block, made when first asked for and given back at the end.
@@ -126,13 +131,14 @@ class BlockBuffer {
   }
   ~BlockBuffer() { release(); }
 
-  std::byte* data(Scratch& scratch) {
+  AlignedBytes& bytes(Scratch& scratch) {
     if (!bytes_) {
       scratch_ = &scratch;
       bytes_ = scratch.take_buffer();
     }
-    return bytes_.data();
+    return bytes_;
   }
+  std::byte* data(Scratch& scratch) { return bytes(scratch).data(); }
   void release() {
     if (bytes_) scratch_->return_buffer(std::move(bytes_));
   }

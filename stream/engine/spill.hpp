@@ -55,10 +55,19 @@ class Spill {
     const std::size_t count = records_in_block(index);
     std::byte* bytes = scratch_->resident(blocks_[index]);
     if (bytes == nullptr) {
-      bytes = buffer.data(*scratch_);
-      scratch_->read(blocks_[index], 0, bytes, count * sizeof(T));
+      AlignedBytes& memory = buffer.bytes(*scratch_);
+      scratch_->load(blocks_[index], memory, count * sizeof(T));
+      bytes = memory.data();
     }
     return {reinterpret_cast<const T*>(bytes), count};
+  }
+
+  /// Begins to read the blocks [first, first + kAhead) that there are; none of them is freed yet.
+  void read_ahead(std::size_t first) const {
+    const std::size_t end = std::min(first + kAhead, blocks_.size());
+    for (std::size_t i = first; i < end; ++i) {
+      scratch_->read_ahead(blocks_[i], records_in_block(i) * sizeof(T));
+    }
   }
 
   void free_block(std::size_t index) { scratch_->free(std::exchange(blocks_[index], kFreed)); }
@@ -70,6 +79,7 @@ class Spill {
   }
 
  private:
+  static constexpr std::size_t kAhead = 2;
   static constexpr Scratch::BlockId kFreed = ~Scratch::BlockId{0};
 
   void swap(Spill& other) noexcept {
@@ -136,8 +146,9 @@ class SpillWriter {
   }
 
   void close_block() {
-    if (scratch_->resident(block_) == nullptr)
-      scratch_->write(block_, cursor_, in_block_ * sizeof(T));
+    if (scratch_->resident(block_) == nullptr) {
+      scratch_->write_behind(block_, buffer_.bytes(*scratch_), in_block_ * sizeof(T));
+    }
     spill_.adopt(block_, in_block_);
     in_block_ = 0;
   }
@@ -165,6 +176,7 @@ class SpillReader {
   std::span<const T> next_block() {
     leave_block();
     if (next_ == spill_->block_count()) return {};
+    spill_->read_ahead(next_ + 1);
     return spill_->load(next_++, buffer_);
   }
 

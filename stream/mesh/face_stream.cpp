@@ -13,16 +13,19 @@
 namespace atlasgauge {
 namespace {
 
-constexpr std::size_t kBatchFaces = 512;
+/// Faces that a worker takes at a time: many, because taking turns costs far more than a face.
+constexpr std::size_t kItemFaces = 4096;
+/// Faces that are joined at a time: few, so that they stay in the caches.
+constexpr std::size_t kBatchFaces = 128;
 
-/// Where the corners' data come from while one worker joins a batch.
+/// Where the corners' data come from while one worker joins the batches of an item.
 class CornerSource {
  public:
   virtual ~CornerSource() = default;
   /// In face order, one worker at a time.
   virtual void produce(std::size_t worker, std::span<const FaceRecord> faces) = 0;
-  /// Any worker.
-  virtual void join(std::size_t worker, std::span<JoinedFace> faces) = 0;
+  /// Any worker; `first` is the place in its item of the first of the faces.
+  virtual void join(std::size_t worker, std::size_t first, std::span<JoinedFace> faces) = 0;
 };
 
 TexCoord usable(const TexCoord& t) {
@@ -44,7 +47,7 @@ class LoadedTables : public CornerSource {
 
   void produce(std::size_t, std::span<const FaceRecord>) override {}
 
-  void join(std::size_t, std::span<JoinedFace> faces) override {
+  void join(std::size_t, std::size_t, std::span<JoinedFace> faces) override {
     for (JoinedFace& face : faces) {
       for (int k = 0; k < 3; ++k) {
         const VertexId v = face.record.v[k];
@@ -89,7 +92,7 @@ class CachedTables : public CornerSource {
 
   void produce(std::size_t, std::span<const FaceRecord>) override {}
 
-  void join(std::size_t worker, std::span<JoinedFace> faces) override {
+  void join(std::size_t worker, std::size_t, std::span<JoinedFace> faces) override {
     Caches& caches = *caches_[worker];
     for (JoinedFace& face : faces) {
       for (int k = 0; k < 3; ++k) {
@@ -122,7 +125,7 @@ class CachedTables : public CornerSource {
 class GatheredCorners : public CornerSource {
  public:
   GatheredCorners(const Engine& engine, MeshStore& mesh, Weld& weld)
-      : batches_(engine.workers.count()) {
+      : items_(engine.workers.count()) {
     const auto vertex = [](const FaceRecord& face, int k) { return raw(face.v[k]); };
     const auto texcoord = [](const FaceRecord& face, int k) { return raw(face.t[k]); };
     positions_ = gather(engine, indices(mesh, vertex), mesh.positions, Position{});
@@ -138,26 +141,26 @@ class GatheredCorners : public CornerSource {
   }
 
   void produce(std::size_t worker, std::span<const FaceRecord> faces) override {
-    Batch& batch = batches_[worker];
-    fill(position_reader_, batch.p, 3 * faces.size());
-    fill(texcoord_reader_, batch.t, 3 * faces.size());
-    fill(welded_reader_, batch.welded, 3 * faces.size());
+    Corners& item = items_[worker];
+    fill(position_reader_, item.p, 3 * faces.size());
+    fill(texcoord_reader_, item.t, 3 * faces.size());
+    fill(welded_reader_, item.welded, 3 * faces.size());
   }
 
-  void join(std::size_t worker, std::span<JoinedFace> faces) override {
-    const Batch& batch = batches_[worker];
+  void join(std::size_t worker, std::size_t first, std::span<JoinedFace> faces) override {
+    const Corners& item = items_[worker];
     for (std::size_t i = 0; i < faces.size(); ++i) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t corner = 3 * i + k;
-        faces[i].p[k] = batch.p[corner];
-        faces[i].welded[k] = batch.welded.empty() ? faces[i].record.v[k] : batch.welded[corner];
-        faces[i].t[k] = batch.t.empty() ? kNoTexCoord : usable(batch.t[corner]);
+        const std::size_t corner = 3 * (first + i) + k;
+        faces[i].p[k] = item.p[corner];
+        faces[i].welded[k] = item.welded.empty() ? faces[i].record.v[k] : item.welded[corner];
+        faces[i].t[k] = item.t.empty() ? kNoTexCoord : usable(item.t[corner]);
       }
     }
   }
 
  private:
-  struct Batch {
+  struct Corners {
     std::vector<Position> p;
     std::vector<TexCoord> t;
     std::vector<VertexId> welded;
@@ -190,7 +193,7 @@ class GatheredCorners : public CornerSource {
   std::optional<SpillReader<Position>> position_reader_;
   std::optional<SpillReader<TexCoord>> texcoord_reader_;
   std::optional<SpillReader<VertexId>> welded_reader_;
-  std::vector<Batch> batches_;
+  std::vector<Corners> items_;
 };
 
 /// Bytes that page caches of one worker's share would load for all faces.
@@ -237,6 +240,17 @@ std::unique_ptr<CornerSource> choose_source(const Engine& engine, MeshStore& mes
   return std::make_unique<CachedTables>(mesh, weld, workers, memory_bytes);
 }
 
+struct Item {
+  std::uint64_t first_face = 0;
+  std::vector<FaceRecord> records;
+  std::vector<JoinedFace> joined;  ///< one batch
+
+  void load_batch(std::size_t first) {
+    joined.resize(std::min(kBatchFaces, records.size() - first));
+    for (std::size_t i = 0; i < joined.size(); ++i) joined[i].record = records[first + i];
+  }
+};
+
 }  // namespace
 
 void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld, std::uint64_t memory_bytes,
@@ -244,35 +258,30 @@ void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld, std::uint64_
   Reservation memory;
   const std::unique_ptr<CornerSource> corners =
       choose_source(engine, mesh, weld, memory_bytes, memory);
-  struct Batch {
-    std::uint64_t first_face = 0;
-    std::vector<FaceRecord> records;
-    std::vector<JoinedFace> joined;
-  };
-  std::vector<Batch> batches(engine.workers.count());
+  std::vector<Item> items(engine.workers.count());
   SpillReader<FaceRecord> faces(mesh.faces);
   std::uint64_t next_face = 0;
   Workers::Pipeline pipeline;
   pipeline.produce = [&](std::size_t worker) {
-    Batch& batch = batches[worker];
-    batch.records.resize(kBatchFaces);
-    batch.records.resize(faces.read(batch.records));
-    batch.first_face = std::exchange(next_face, next_face + batch.records.size());
-    corners->produce(worker, batch.records);
-    return !batch.records.empty();
+    Item& item = items[worker];
+    item.records.resize(kItemFaces);
+    item.records.resize(faces.read(item.records));
+    item.first_face = std::exchange(next_face, next_face + item.records.size());
+    corners->produce(worker, item.records);
+    return !item.records.empty();
   };
   pipeline.transform = [&](std::size_t worker) {
-    Batch& batch = batches[worker];
-    batch.joined.resize(batch.records.size());
-    for (std::size_t i = 0; i < batch.records.size(); ++i)
-      batch.joined[i].record = batch.records[i];
-    corners->join(worker, batch.joined);
-    visitor.transform(worker, batch.first_face, batch.joined);
+    Item& item = items[worker];
+    for (std::size_t first = 0; first < item.records.size(); first += kBatchFaces) {
+      item.load_batch(first);
+      corners->join(worker, first, item.joined);
+      visitor.transform(worker, item.first_face + first, item.joined);
+    }
   };
   if (visitor.commit) {
     pipeline.commit = [&](std::size_t worker) {
       visitor.commit(worker);
-      stage.progress(batches[worker].first_face);
+      stage.progress(items[worker].first_face);
     };
   }
   engine.workers.run(pipeline);

@@ -20,12 +20,12 @@ struct JoinedFace {
   TexCoord t[3];  ///< kNoTexCoord where the corner has no finite UV
 };
 
-/// What to do with the faces; see Workers for who calls what.
+/// What to do with the faces; see Workers for who calls what. An item is several batches.
 struct FaceVisitor {
-  /// Any worker; `first_face` is the number of the first of them.
+  /// Any worker, once a batch; `first_face` is the number of the first of them.
   std::function<void(std::size_t worker, std::uint64_t first_face, std::span<const JoinedFace>)>
       transform;
-  /// In face order.
+  /// In face order, once an item.
   std::function<void(std::size_t worker)> commit;
 };
 

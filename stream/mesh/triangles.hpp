@@ -23,9 +23,10 @@ SlotId slot_of(const TextureSlots& slots, MaterialId material);
 SlotFrames frame_slots(const Engine& engine, MeshStore& mesh, Weld& weld,
                        const TextureSlots& slots);
 
+/// As FaceVisitor.
 struct TriangleVisitor {
   std::function<void(std::size_t worker, std::span<const Triangle>)> transform;
-  std::function<void(std::size_t worker)> commit;  ///< in face order
+  std::function<void(std::size_t worker)> commit;
 };
 
 /// Runs all faces through a visitor, in batches.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "stream/engine/engine.hpp"
+#include "stream/engine/block_visit.hpp"
 #include "stream/engine/spill.hpp"
 #include "stream/mesh/records.hpp"
 #include "stream/seams/footprint_colours.hpp"
@@ -68,10 +68,9 @@ class SeamEdges {
   /// Calls use(worker, number, edge) for all edges, on all workers; takes a block of memory each.
   template <class Use>
   void visit(const Engine& engine, StageLog::Stage& stage, Use use) const {
-    std::vector<BlockBuffer> buffers(engine.workers.count());
-    engine.workers.for_each(block_count(), [&](std::size_t worker, std::size_t block) {
+    visit_blocks(engine, edges_, [&](std::size_t worker, std::size_t block, auto edges) {
       auto number = static_cast<std::uint32_t>(block * edges_.records_per_block());
-      for (const SeamCandidate& edge : edges_.load(block, buffers[worker])) {
+      for (const SeamCandidate& edge : edges) {
         use(worker, number++, edge);
       }
       if (worker == 0) stage.progress(block + 1);

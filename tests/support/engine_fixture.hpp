@@ -17,6 +17,7 @@ struct EngineOptions {
   std::size_t block_bytes = 4096;
   std::size_t workers = 2;
   std::uint64_t resident_bytes = 0;
+  std::size_t queued_blocks = 4;  ///< beside the budget
   std::string directory = std::filesystem::temp_directory_path().string();
 };
 
@@ -24,8 +25,10 @@ struct EngineOptions {
 class TestEngine {
  public:
   explicit TestEngine(const EngineOptions& options = {})
-      : budget(options.budget_bytes),
-        scratch({options.directory, options.block_bytes, options.resident_bytes}, budget),
+      : budget(options.budget_bytes + options.queued_blocks * options.block_bytes),
+        scratch(
+            {options.directory, options.block_bytes, options.resident_bytes, options.queued_blocks},
+            budget),
         workers(options.workers),
         log(scratch, workers),
         engine{budget, scratch, workers, log} {}

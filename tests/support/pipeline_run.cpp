@@ -24,6 +24,8 @@ RasterPlan raster_plan(const PipelineConfig& config) {
   return plan;
 }
 
+constexpr std::size_t kQueuedBlocks = 8;
+
 [[noreturn]] void refuse(const std::string& image) {
   throw Error(ErrorKind::kInput, image, 0, "no images in this test");
 }
@@ -31,9 +33,9 @@ RasterPlan raster_plan(const PipelineConfig& config) {
 }  // namespace
 
 PipelineResult run_pipeline(const std::string& model, const PipelineConfig& config) {
-  MemoryBudget budget(config.engine_bytes);
+  MemoryBudget budget(config.engine_bytes + kQueuedBlocks * config.block_bytes);
   const std::string scratch_dir = std::filesystem::temp_directory_path().string();
-  Scratch scratch({scratch_dir, config.block_bytes, config.resident_bytes}, budget);
+  Scratch scratch({scratch_dir, config.block_bytes, config.resident_bytes, kQueuedBlocks}, budget);
   const Workers workers(config.workers);
   StageLog log(scratch, workers);
   const Engine engine{budget, scratch, workers, log};

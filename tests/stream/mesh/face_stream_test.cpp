@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "io/error.hpp"
@@ -53,8 +54,9 @@ void expect_joined(TestEngine& engine, const SmallMesh& small, std::uint64_t mem
   FaceVisitor visitor;
   visitor.transform = [&](std::size_t worker, std::uint64_t first_face,
                           std::span<const JoinedFace> faces) {
-    first[worker] = first_face;
-    count[worker] = faces.size();
+    if (count[worker] == 0) first[worker] = first_face;
+    if (first_face != first[worker] + count[worker]) ++wrong;
+    count[worker] += faces.size();
     for (std::size_t i = 0; i < faces.size(); ++i) {
       const JoinedFace& face = faces[i];
       const FaceRecord& record = small.faces[first_face + i];
@@ -72,7 +74,7 @@ void expect_joined(TestEngine& engine, const SmallMesh& small, std::uint64_t mem
   };
   visitor.commit = [&](std::size_t worker) {
     EXPECT_EQ(first[worker], committed);
-    committed += count[worker];
+    committed += std::exchange(count[worker], 0);
   };
   visit_faces(engine, mesh, weld, memory_bytes, stage, visitor);
   EXPECT_EQ(committed, small.faces.size());

@@ -137,7 +137,7 @@ class Stages {
     SpillWriter<AtlasFace> face_writer(engine_.scratch);
     TriangleVisitor visitor;
     visitor.transform = [&](std::size_t worker, std::span<const Triangle> some) {
-      batches[worker].assign(some.begin(), some.end());
+      batches[worker].insert(batches[worker].end(), some.begin(), some.end());
     };
     visitor.commit = [&](std::size_t worker) {
       for (const Triangle& triangle : batches[worker]) {
@@ -145,6 +145,7 @@ class Stages {
         writer.push(FaceFacts(triangle));
         face_writer.push(AtlasFace(triangle));
       }
+      batches[worker].clear();
     };
     visit_triangles(engine_, mesh, weld, slots, frames, engine_.budget.free_bytes() / 2, stage,
                     visitor);
