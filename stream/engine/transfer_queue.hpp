@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "stream/engine/aligned_bytes.hpp"
+#include "stream/engine/block_memory.hpp"
 
 namespace atlasgauge {
 
@@ -35,15 +35,15 @@ class TransferQueue {
   static constexpr std::size_t kThreads = 2;
 
   /// Throws std::system_error if the system gives no thread.
-  TransferQueue(std::size_t slots, std::size_t block_bytes, Device device);
+  TransferQueue(std::size_t slots, BlockMemory& memory, Device device);
   ~TransferQueue();
 
   /// Takes over the bytes in `memory`, which is other memory of the same size afterwards.
-  void write(BlockId block, AlignedBytes& memory, std::size_t bytes);
+  void write(BlockId block, BlockBytes& memory, std::size_t bytes);
   /// Begins to read the block, if there is room for it.
   void read_ahead(BlockId block, std::size_t bytes);
   /// Whether the block was read ahead: `memory` then holds it. If not, it may be read now.
-  bool take(BlockId block, AlignedBytes& memory);
+  bool take(BlockId block, BlockBytes& memory);
   /// Waits for the end of a write of the block.
   void settle(BlockId block);
   /// The block is not wanted any more.
@@ -57,7 +57,7 @@ class TransferQueue {
     BlockId block = 0;
     std::size_t bytes = 0;
     std::uint64_t turn = 0;
-    AlignedBytes memory;
+    BlockBytes memory;
   };
   using Lock = std::unique_lock<std::mutex>;
 
@@ -71,7 +71,7 @@ class TransferQueue {
   void run();
   void transfer(Slot& slot, Lock& lock);
 
-  const std::size_t block_bytes_;
+  BlockMemory& memory_;
   const Device device_;
   std::mutex mutex_;
   std::condition_variable work_, progress_;
