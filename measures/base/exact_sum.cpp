@@ -9,59 +9,44 @@ namespace {
 
 __extension__ typedef unsigned __int128 UInt128;
 
-struct Product {
-  double high, low;
-};
-
-/// a * b as the unevaluated sum of its rounded value and the error (T. J. Dekker, 1971). Written
-/// out, because std::fma is a library call on machines without it.
-Product exact_product(double a, double b) {
-  const auto split = [](double x) {
-    const double c = 134217729.0 * x;  // 2^27 + 1
-    const double high = c - (c - x);
-    return Product{high, x - high};
-  };
-  const double product = a * b;
-  const Product s = split(a), t = split(b);
-  const double error =
-      ((s.high * t.high - product) + s.high * t.low + s.low * t.high) + s.low * t.low;
-  return {product, std::isfinite(error) ? error : 0.0};
-}
-
 }  // namespace
 
-void ExactSum::add(double term) {
-  const auto bits = std::bit_cast<std::uint64_t>(term);
-  const auto exponent = static_cast<unsigned>(bits >> 52 & 0x7FF);
-  if (exponent == 0x7FF) {
+/// A term that is zero, not finite, subnormal, or not within reach of the window.
+void ExactSum::add_outside(double term, Window& window) {
+  if (term == 0) return;
+  if (!std::isfinite(term)) {
     ++not_finite_;
     return;
   }
-  const std::uint64_t fraction = bits & ((std::uint64_t{1} << 52) - 1);
-  const std::uint64_t mantissa = exponent == 0 ? fraction : fraction | std::uint64_t{1} << 52;
-  const unsigned place = exponent == 0 ? 0 : exponent - 1;  // of the mantissa's lowest bit
-  const std::size_t chunk = place / 32;
-  const unsigned shift = place % 32;
-  const auto low = static_cast<std::int64_t>(mantissa << shift & 0xFFFFFFFFU);
-  const auto high = static_cast<std::int64_t>(mantissa >> (32 - shift));
-  const bool negative = bits >> 63 != 0;
-  chunks_[chunk] += negative ? -low : low;
-  chunks_[chunk + 1] += negative ? -high : high;
-  if (++terms_ == kTermsPerPropagation) propagate();
+  const auto bits = std::bit_cast<std::uint64_t>(term);
+  const auto exponent = static_cast<std::uint32_t>(bits >> 52 & 0x7FF);
+  if (exponent == 0) {
+    const auto size = static_cast<std::int64_t>(bits & kFraction);
+    const std::int64_t low = size & 0xFFFFFFFF, high = size >> 32;
+    chunks_[0] += term < 0 ? -low : low;
+    chunks_[1] += term < 0 ? -high : high;
+    return note_addition();
+  }
+  flush(window);
+  // Half of the window's reach lies below this term.
+  const std::uint32_t chunk = (exponent - 1) / 32;
+  window.place = 32 * (chunk == 0 ? 0 : chunk - 1);
+  add(term, window);
 }
 
-void ExactSum::add_product(double a, double b) {
-  const Product ab = exact_product(a, b);
-  add(ab.high);
-  add(ab.low);
+void ExactSum::flush(Window& window) {
+  const std::size_t chunk = window.place / 32;
+  for (std::size_t i = 0; i < 3; ++i) {
+    chunks_[chunk + i] += static_cast<std::int64_t>(window.sum >> 32 * i & 0xFFFFFFFFU);
+  }
+  chunks_[chunk + 3] += static_cast<std::int64_t>(window.sum >> 96);
+  window.sum = 0;
+  window.terms = 0;
+  note_addition();
 }
 
-void ExactSum::add_product(double a, double b, double c) {
-  const Product ab = exact_product(a, b);
-  const Product abc = exact_product(ab.high, c);
-  add(abc.high);
-  add(abc.low);
-  add(ab.low * c);
+void ExactSum::note_addition() {
+  if (++additions_ == kAdditionsPerPropagation) carry();
 }
 
 void ExactSum::merge(const ExactSum& other) {
@@ -82,14 +67,21 @@ void ExactSum::subtract(const ExactSum& other) {
   propagate();
 }
 
-/// Leaves every chunk but the last in [0, 2^32), so equal sums have equal chunks.
+/// Afterwards equal sums have equal chunks, and nothing besides.
 void ExactSum::propagate() {
+  flush(terms_window_);
+  flush(errors_window_);
+  carry();
+}
+
+/// Leaves every chunk but the last in [0, 2^32).
+void ExactSum::carry() {
   for (std::size_t i = 0; i + 1 < kChunks; ++i) {
     const std::int64_t carry = chunks_[i] >> 32;
     chunks_[i] -= carry * (std::int64_t{1} << 32);
     chunks_[i + 1] += carry;
   }
-  terms_ = 0;
+  additions_ = 0;
 }
 
 ExactSum ExactSum::magnitude(bool& negative) const {

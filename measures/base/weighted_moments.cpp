@@ -9,8 +9,11 @@ void WeightedMoments::add(double value, double weight) {
   smallest_ = std::min(smallest_, value);
   largest_ = std::max(largest_, value);
   weight_.add(weight);
-  first_.add_product(weight, value);
-  second_.add_product(weight, value, value);
+  const SplitDouble split_value(value);
+  const Product weighted = exact_product(weight, SplitDouble(weight), value, split_value);
+  first_.add(weighted);
+  second_.add(exact_product(weighted.high, SplitDouble(weighted.high), value, split_value));
+  second_.add_error(weighted.low * value);
 }
 
 void WeightedMoments::merge(const WeightedMoments& other) {

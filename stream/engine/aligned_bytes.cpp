@@ -33,9 +33,9 @@ std::byte* map_huge(std::size_t bytes) {
 
 }  // namespace
 
-AlignedBytes::AlignedBytes(std::size_t bytes) {
+AlignedBytes::AlignedBytes(std::size_t bytes, Pages pages) {
   const std::size_t size = rounded_up(bytes);
-  if (size >= kHugePage) {
+  if (pages == Pages::kHuge && size >= kHugePage) {
     data_ = {map_huge(size), Release{size}};
     return;
   }

@@ -39,7 +39,7 @@ BlockMemory::Slab& BlockMemory::slab_with_room() {
       std::find_if(slabs_.begin(), slabs_.end(), [](const Slab& slab) { return !slab.memory; });
   Slab& slab = unused != slabs_.end() ? *unused : slabs_.emplace_back();
   slab.free.reserve(blocks_per_slab_);
-  slab.memory = AlignedBytes(blocks_per_slab_ * block_bytes_);
+  slab.memory = AlignedBytes(blocks_per_slab_ * block_bytes_, AlignedBytes::Pages::kHuge);
   for (std::size_t i = blocks_per_slab_; i > 0; --i) {
     slab.free.push_back(slab.memory.data() + (i - 1) * block_bytes_);
   }

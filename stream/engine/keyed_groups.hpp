@@ -12,6 +12,7 @@
 
 #include "stream/engine/engine.hpp"
 #include "stream/engine/partition.hpp"
+#include "stream/engine/record_buffer.hpp"
 
 namespace atlasgauge {
 
@@ -57,7 +58,7 @@ class KeyedGroups {
                         std::uint32_t key_end, std::uint64_t memory_bytes,
                         std::uint64_t distribution_bytes, std::uint64_t least_buckets = 1) {
     const std::uint64_t worker_bytes =
-        std::max<std::uint64_t>(1, memory_bytes / engine.workers.count());
+        std::clamp<std::uint64_t>(memory_bytes / engine.workers.count(), 1, kUsefulBytes);
     // Two thirds full on average, so that ordinary scatter does not overflow a bucket.
     const std::uint64_t bytes = records * record_bytes() + std::uint64_t{key_end - key_first} * 4;
     const std::uint64_t wanted = std::max(least_buckets, bytes * 3 / (worker_bytes * 2) + 1);
@@ -131,9 +132,12 @@ class KeyedGroups {
 
  private:
   struct Memory {
-    std::vector<Record> loaded, sorted;
+    RecordBuffer<Record> loaded, sorted;
     std::vector<std::uint32_t> ends;
   };
+
+  /// Larger buckets fall out of the caches, and touch memory that smaller ones would use again.
+  static constexpr std::uint64_t kUsefulBytes = 24 << 20;
 
   /// Loaded and sorted copy of one record.
   static constexpr std::uint64_t record_bytes() { return 2 * sizeof(Record); }
@@ -150,7 +154,7 @@ class KeyedGroups {
   void sort_and_call(std::size_t worker, Spill<Record> bucket,
                      std::pair<std::uint32_t, std::uint32_t> keys, std::uint64_t worker_bytes) {
     Memory& memory = memory_[worker];
-    resize(memory.loaded, bucket.size());
+    memory.loaded.resize(bucket.size());
     SpillReader<Record>(bucket, SpillReader<Record>::Mode::kConsume).read(memory.loaded);
     bucket.clear();
     const std::uint64_t key_count = keys.second - keys.first;
@@ -161,18 +165,12 @@ class KeyedGroups {
     call_groups(worker, counting ? memory.sorted : memory.loaded);
   }
 
-  /// Without a moment in which the old and the new memory are both there.
-  static void resize(std::vector<Record>& records, std::size_t size) {
-    if (records.capacity() < size) std::vector<Record>().swap(records);
-    records.resize(size);
-  }
-
   static void counting_sort(Memory& memory, std::pair<std::uint32_t, std::uint32_t> keys) {
     memory.ends.assign(keys.second - keys.first, 0);
     for (const Record& record : memory.loaded) ++memory.ends[record.key() - keys.first];
     std::uint32_t end = 0;
     for (std::uint32_t& count : memory.ends) count = std::exchange(end, end + count);
-    resize(memory.sorted, memory.loaded.size());
+    memory.sorted.resize(memory.loaded.size());
     for (const Record& record : memory.loaded) {
       memory.sorted[memory.ends[record.key() - keys.first]++] = record;
     }
@@ -183,10 +181,10 @@ class KeyedGroups {
               [](const Record& a, const Record& b) { return a.key() < b.key(); });
   }
 
-  void call_groups(std::size_t worker, std::vector<Record>& records) {
+  void call_groups(std::size_t worker, std::span<Record> records) {
     for (std::size_t begin = 0, end = 0; begin < records.size(); begin = end) {
       while (end < records.size() && records[end].key() == records[begin].key()) ++end;
-      const std::span<Record> group(&records[begin], end - begin);
+      const std::span<Record> group = records.subspan(begin, end - begin);
       group.size() > largest_group_ ? set_aside(group) : on_group_(worker, group);
     }
   }

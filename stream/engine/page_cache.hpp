@@ -65,7 +65,7 @@ class PageCache {
       : table_(&table),
         layout_(table),
         tags_(memory_bytes / PageLayout<T>::kBytes),
-        memory_(tags_.sets() * PageLayout<T>::kBytes),
+        memory_(tags_.sets() * PageLayout<T>::kBytes, AlignedBytes::Pages::kHuge),
         pages_(tags_.sets(), nullptr) {}
 
   const T& at(std::uint32_t record) {

@@ -17,13 +17,13 @@ namespace atlasgauge {
 
 /// Distributes records to buckets that spill, for many writers at once.
 ///
-/// Every writer belongs to one thread and stages a few records per bucket, so that the lock of a
+/// Every writer belongs to one thread and stages some records per bucket, so that the lock of a
 /// bucket is taken once per kStaged records. The order of records in a bucket depends on the
 /// threads; whoever needs an order sorts. Memory: one block a bucket, and the staging of each
 /// writer.
 template <class T>
 class Partition {
-  static constexpr std::size_t kStaged = std::max<std::size_t>(4, 1024 / sizeof(T));
+  static constexpr std::size_t kStaged = std::max<std::size_t>(4, 4096 / sizeof(T));
 
  public:
   static std::uint64_t memory_bytes(std::size_t buckets, std::size_t writers,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "stream/engine/partition.hpp"
+#include "stream/engine/record_buffer.hpp"
 #include "stream/engine/sort_spill.hpp"
 
 namespace atlasgauge {
@@ -51,8 +52,13 @@ class DistinctPositions {
  public:
   static constexpr std::uint64_t kEntryBytes = 2 * sizeof(PlacedVertex);
 
-  explicit DistinctPositions(std::uint64_t capacity)
-      : capacity_(capacity), slots_(std::bit_ceil(2 * capacity), kEmpty) {}
+  /// Empties the table.
+  void reset(std::uint64_t capacity) {
+    capacity_ = capacity;
+    size_ = 0;
+    slots_.resize(std::bit_ceil(2 * capacity));
+    std::fill(slots_.begin(), slots_.end(), kEmpty);
+  }
 
   /// The vertex first seen at this position: `vertex` itself, which is added while there is room,
   /// or kNone when it is new and there is none.
@@ -70,9 +76,9 @@ class DistinctPositions {
 
  private:
   static constexpr PlacedVertex kEmpty{{0, 0, 0}, kNone<VertexId>};
-  std::uint64_t capacity_;
+  std::uint64_t capacity_ = 0;
   std::uint64_t size_ = 0;
-  std::vector<PlacedVertex> slots_;
+  RecordBuffer<PlacedVertex> slots_;
 };
 
 class Welding {
@@ -88,10 +94,11 @@ class Welding {
       for (std::size_t i = 0; i < buckets.size(); ++i) {
         if (buckets[i].size() > capacity) large.push_back(i);
       }
-      engine_.workers.for_each(buckets.size(), [&](std::size_t, std::size_t i) {
+      std::vector<DistinctPositions> tables(engine_.workers.count());
+      engine_.workers.for_each(buckets.size(), [&](std::size_t worker, std::size_t i) {
         if (buckets[i].size() > capacity) return;
-        const std::uint64_t vertices = buckets[i].size();
-        match(std::move(buckets[i]), vertices, [](const PlacedVertex&) {});
+        tables[worker].reset(buckets[i].size());
+        match(std::move(buckets[i]), tables[worker], [](const PlacedVertex&) {});
       });
     }
     for (const std::size_t i : large) match_large(std::move(buckets[i]), 1);
@@ -99,6 +106,9 @@ class Welding {
   }
 
  private:
+  /// Larger tables fall out of the caches.
+  static constexpr std::uint64_t kUsefulBytes = 24 << 20;
+
   /// Bits of the hash that choose the bucket, in rounds of eight from the top; the table uses the
   /// low ones.
   static std::size_t bucket_of(std::uint64_t hash, unsigned round, std::size_t buckets) {
@@ -120,7 +130,8 @@ class Welding {
   std::vector<Spill<PlacedVertex>> distribute(MeshStore& mesh) {
     const Reservation all = reserve();
     const std::uint64_t workers = engine_.workers.count();
-    const std::uint64_t capacity = table_capacity(all.bytes() / workers);
+    const std::uint64_t capacity =
+        table_capacity(std::min<std::uint64_t>(all.bytes() / workers, kUsefulBytes));
     const std::uint64_t wanted = mesh.positions.size() * 3 / (2 * capacity) + 1;
     const std::uint64_t cost = Partition<PlacedVertex>::memory_bytes(1, 1, engine_.block_bytes());
     const std::uint64_t affordable = std::max<std::uint64_t>(2, all.bytes() / 2 / cost);
@@ -139,12 +150,11 @@ class Welding {
     return partition.finish();
   }
 
-  /// Streams a bucket through a table of `capacity` distinct positions. What is new when the table
-  /// is full is handed to `overflow`. Buckets keep the order of the vertices, so the first at a
+  /// Streams a bucket through an empty table. What is new when the table is full is handed to
+  /// `overflow`. Buckets keep the order of the vertices, so the first at a
   /// position is the smallest.
   template <class Overflow>
-  void match(Spill<PlacedVertex> bucket, std::uint64_t capacity, Overflow overflow) {
-    DistinctPositions distinct(capacity);
+  void match(Spill<PlacedVertex> bucket, DistinctPositions& distinct, Overflow overflow) {
     SharedSpill<Coincidence>::Writer writer(coincidences_);
     SpillReader<PlacedVertex> reader(bucket, SpillReader<PlacedVertex>::Mode::kConsume);
     for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
@@ -173,7 +183,9 @@ class Welding {
           table_capacity(all.bytes() - std::min(all.bytes(), partition_bytes));
       Partition<PlacedVertex> partition(engine_.scratch, kBuckets);
       Partition<PlacedVertex>::Writer writer(partition);
-      match(std::move(bucket), capacity, [&](const PlacedVertex& vertex) {
+      DistinctPositions distinct;
+      distinct.reset(capacity);
+      match(std::move(bucket), distinct, [&](const PlacedVertex& vertex) {
         writer.push(bucket_of(hash_of(vertex.p), round, kBuckets), vertex);
       });
       writer.flush();

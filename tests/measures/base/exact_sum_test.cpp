@@ -74,6 +74,10 @@ Terms random_terms(std::size_t count, int low_exponent, int high_exponent, bool 
   return terms;
 }
 
+Product product_of(double a, double b) {
+  return exact_product(a, SplitDouble(a), b, SplitDouble(b));
+}
+
 std::vector<std::byte> saved(ExactSum sum) {
   Saver saver;
   saver(sum);
@@ -141,6 +145,19 @@ TEST(ExactSumTest, AgreesWithExactArithmetic) {
       EXPECT_EQ(sum_of(terms).value(), exact_sum(terms));
     }
   }
+}
+
+TEST(ExactSumTest, ManyTermsOfOneSizeDoNotOverflowTheWindow) {
+  for (const double term : {0x1.fffffffffffffp31, -0x1.fffffffffffffp31, 0x1p32, -0x1p0}) {
+    EXPECT_EQ(sum_of(Terms(5000, term)).value(), 5000 * term);
+  }
+}
+
+TEST(ExactSumTest, TermsThatTakeTurnsInSizeAreNotLost) {
+  Terms terms;
+  for (int i = 0; i < 3000; ++i)
+    terms.push_back(std::ldexp(i % 2 == 0 ? 3 : -5, 40 * (i % 7) - 120));
+  EXPECT_EQ(sum_of(terms).value(), exact_sum(terms));
 }
 
 TEST(ExactSumTest, OrderDoesNotMatter) {
@@ -220,7 +237,7 @@ TEST(ExactSumTest, ProductOfTwoIsExact) {
   for (int i = 0; i < 1000; ++i) {
     const double a = factor(random), b = factor(random);
     ExactSum sum;
-    sum.add_product(a, b);
+    sum.add(product_of(a, b));
     sum.add(-(a * b));
     EXPECT_EQ(sum.value(), std::fma(a, b, -(a * b)));
   }
@@ -232,7 +249,9 @@ TEST(ExactSumTest, ProductOfThreeIsGoodToTwiceADouble) {
   for (int i = 0; i < 1000; ++i) {
     const double a = factor(random), b = factor(random), c = factor(random);
     ExactSum sum;
-    sum.add_product(a, b, c);
+    const Product ab = product_of(a, b);
+    sum.add(product_of(ab.high, c));
+    sum.add_error(ab.low * c);
     const cpp_int product = exact(a) * exact(b) * exact(c);  // in units of 2^-3222
     const cpp_int found = exact(sum.value()) << (2 * 1074);
     EXPECT_LE(abs(product - found), abs(product) >> 52);
@@ -244,7 +263,7 @@ TEST(ExactSumTest, ProductOfThreeIsGoodToTwiceADouble) {
 
 TEST(ExactSumTest, HugeFactorsStayFinite) {
   ExactSum sum;
-  sum.add_product(1e305, 0.5);
+  sum.add(product_of(1e305, 0.5));
   EXPECT_EQ(sum.value(), 5e304);
 }
 
