@@ -26,7 +26,7 @@ constexpr std::uint64_t kSmallestBlockBytes = 4096;
 constexpr std::uint64_t kLargestBlockBytes = 1 * kMiB;
 /// Blocks that the engine's memory holds: enough for the buckets of one distribution, and for
 /// labels of as many faces as an index can number.
-constexpr std::uint64_t kBlocksPerEngine = 400;
+constexpr std::uint64_t kBlocksPerEngine = 512;
 /// Blocks on their way to and from disk, at most, and the share of the engine that they may take.
 constexpr std::uint64_t kQueuedBlocksPerWorker = 6;
 constexpr std::uint64_t kMostQueuedBlocks = 64;

@@ -17,7 +17,7 @@ struct EngineOptions {
   std::size_t block_bytes = 4096;
   std::size_t workers = 2;
   std::uint64_t resident_bytes = 0;
-  std::size_t queued_blocks = 4;  ///< beside the budget
+  std::size_t queued_blocks = 4;  ///< beside budget_bytes
   std::string directory = std::filesystem::temp_directory_path().string();
 };
 
@@ -25,10 +25,11 @@ struct EngineOptions {
 class TestEngine {
  public:
   explicit TestEngine(const EngineOptions& options = {})
-      : budget(options.budget_bytes + options.queued_blocks * options.block_bytes),
-        scratch(
-            {options.directory, options.block_bytes, options.resident_bytes, options.queued_blocks},
-            budget),
+      : budget(options.budget_bytes - options.resident_bytes),
+        scratch_budget(options.resident_bytes + options.queued_blocks * options.block_bytes),
+        scratch({options.directory, options.block_bytes, options.resident_bytes,
+                 options.queued_blocks},
+                scratch_budget),
         workers(options.workers),
         log(scratch, workers),
         engine{budget, scratch, workers, log} {}
@@ -37,7 +38,7 @@ class TestEngine {
 
   operator const Engine&() const { return engine; }
 
-  MemoryBudget budget;
+  MemoryBudget budget, scratch_budget;
   Scratch scratch;
   Workers workers;
   StageLog log;

@@ -75,7 +75,7 @@ TEST(PartitionTest, EmptyBucketsAreEmptySpills) {
 
 TEST(PartitionTest, MemoryIsABlockABucketAndTheStaging) {
   const std::uint64_t staging = Partition<std::uint32_t>::staging_bytes();
-  EXPECT_EQ(staging, 1024U);
+  EXPECT_EQ(staging, 4096U);
   EXPECT_EQ(Partition<std::uint32_t>::memory_bytes(3, 2, 4096), 3 * (4096 + 2 * staging));
 }
 
