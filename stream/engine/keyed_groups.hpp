@@ -77,7 +77,7 @@ class KeyedGroups {
   };
 
   /// Distributes the records, about `records` with keys below `key_end`, that fill(push) hands to
-  /// push(record), from one thread. `fill` may use up to three blocks of memory besides.
+  /// push(worker, record). `fill` may use a block of memory a worker, and up to four, besides.
   template <class Fill>
   static Buckets distribute(const Engine& engine, std::uint64_t records, std::uint64_t key_end,
                             std::string_view who, Fill fill, std::uint64_t least_buckets = 1) {
@@ -85,13 +85,17 @@ class KeyedGroups {
     const KeyRanges ranges = plan(engine, records, 0, static_cast<std::uint32_t>(key_end),
                                   free_bytes / 8 * 7, free_bytes / 2, least_buckets);
     const Reservation memory = engine.budget.reserve(
-        Partition<Record>::memory_bytes(ranges.bucket_count(), 1, engine.block_bytes()) +
-            3 * engine.block_bytes(),
+        Partition<Record>::memory_bytes(ranges.bucket_count(), engine.workers.count(),
+                                        engine.block_bytes()) +
+            (engine.workers.count() + 4) * engine.block_bytes(),
         who);
     Partition<Record> partition(engine.scratch, ranges.bucket_count());
-    typename Partition<Record>::Writer writer(partition);
-    fill([&](const Record& record) { writer.push(ranges.bucket_of(record.key()), record); });
-    writer.flush();
+    std::vector<typename Partition<Record>::Writer> writers;
+    for (std::size_t i = 0; i < engine.workers.count(); ++i) writers.emplace_back(partition);
+    fill([&](std::size_t worker, const Record& record) {
+      writers[worker].push(ranges.bucket_of(record.key()), record);
+    });
+    for (auto& writer : writers) writer.flush();
     return {ranges, partition.finish()};
   }
 

@@ -6,6 +6,7 @@
 
 #include "stream/engine/gather.hpp"
 #include "stream/engine/keyed_groups.hpp"
+#include "stream/engine/row_visit.hpp"
 #include "stream/engine/sort_spill.hpp"
 
 namespace atlasgauge {
@@ -151,22 +152,19 @@ ChartPart part_of(const Label& chart, std::uint32_t flags, const FaceFacts& fact
 }
 
 template <class Push>
-void push_faces(ChartParts& parts, Push push) {
-  SpillReader<Label> charts(parts.labels.by_all_edges());
-  SpillReader<Label> classes(parts.labels.by_manifold_edges());
-  SpillReader<FaceFacts> all_facts(parts.facts);
-  SpillReader<AtlasFace> faces(parts.faces);
-  FaceFacts facts;
-  AtlasFace face;
-  Label chart, orientation;
-  for (std::uint32_t number = 0;
-       all_facts.read(facts) && faces.read(face) && charts.read(chart) && classes.read(orientation);
-       ++number) {
-    if (!facts.at_welded_level()) continue;
-    const std::uint32_t flags = (orientation.parity() ? ChartPart::kFlipped : 0) |
-                                (orientation.conflict() ? ChartPart::kConflict : 0);
-    push(part_of(chart, flags, facts, face, number));
-  }
+void push_faces(const Engine& engine, ChartParts& parts, Push push) {
+  const auto push_rows = [&](std::size_t worker, std::uint64_t first_face, auto charts,
+                             auto classes, auto facts, auto faces) {
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (!facts[i].at_welded_level()) continue;
+      const std::uint32_t flags = (classes[i].parity() ? ChartPart::kFlipped : 0) |
+                                  (classes[i].conflict() ? ChartPart::kConflict : 0);
+      const auto number = static_cast<std::uint32_t>(first_face + i);
+      push(worker, part_of(charts[i], flags, facts[i], faces[i], number));
+    }
+  };
+  visit_rows(engine, push_rows, parts.labels.by_all_edges(), parts.labels.by_manifold_edges(),
+             parts.facts, parts.faces);
 }
 
 /// The charts of the borders, in their order.
@@ -185,7 +183,7 @@ void push_borders(Spill<BorderEdge>& borders, Spill<Label>& charts_of_borders, P
   BorderEdge border{};
   Label chart;
   while (edges.read(border) && charts.read(chart)) {
-    push({chart.first(), 0, ChartPart::kBorder, {}, 0, border.length_texels});
+    push(0, {chart.first(), 0, ChartPart::kBorder, {}, 0, border.length_texels});
   }
 }
 
@@ -197,7 +195,7 @@ KeyedGroups<ChartPart>::Buckets distribute_parts(const Engine& engine, ChartPart
   return KeyedGroups<ChartPart>::distribute(engine, parts.facts.size() + parts.borders.size(),
                                             parts.facts.size(), "distributing faces to charts",
                                             [&](auto push) {
-                                              push_faces(parts, push);
+                                              push_faces(engine, parts, push);
                                               push_borders(parts.borders, charts_of_borders, push);
                                             });
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "stream/engine/keyed_groups.hpp"
+#include "stream/engine/row_visit.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -29,23 +30,21 @@ Spill<Link> copy_of(const Engine& engine, Spill<Link>& links) {
 KeyedGroups<ComponentRun>::Buckets distribute_runs(const Engine& engine, FaceLabels& labels,
                                                    Spill<FaceFacts>& facts) {
   const auto push_runs = [&](auto push) {
-    SpillReader<Label> components(labels.by_all_edges());
-    SpillReader<Label> classes(labels.by_manifold_edges());
-    SpillReader<FaceFacts> faces(facts);
-    ComponentRun run{0, 0, 0};
-    FaceFacts face;
-    Label component, orientation;
-    while (faces.read(face) && components.read(component) && classes.read(orientation)) {
-      if (!face.at_raw_level()) continue;
-      if (run.faces > 0 && run.component != component.first()) {
-        push(run);
-        run = {};
+    const auto push_rows = [&](std::size_t worker, std::uint64_t, auto components, auto classes,
+                               auto faces) {
+      ComponentRun run{0, 0, 0};
+      for (std::size_t i = 0; i < faces.size(); ++i) {
+        if (!faces[i].at_raw_level()) continue;
+        if (run.faces > 0 && run.component != components[i].first()) {
+          push(worker, std::exchange(run, {}));
+        }
+        run.component = components[i].first();
+        ++run.faces;
+        run.conflict |= classes[i].conflict() ? 1U : 0U;
       }
-      run.component = component.first();
-      ++run.faces;
-      run.conflict |= orientation.conflict() ? 1U : 0U;
-    }
-    if (run.faces > 0) push(run);
+      if (run.faces > 0) push(worker, run);
+    };
+    visit_rows(engine, push_rows, labels.by_all_edges(), labels.by_manifold_edges(), facts);
   };
   return KeyedGroups<ComponentRun>::distribute(engine, facts.size(), facts.size(),
                                                "distributing components", push_runs);

@@ -228,7 +228,7 @@ KeyedGroups<StarCorner>::Buckets distribute_corners(const Engine& engine, Spill<
     while (face_reader.read(face) && facts_reader.read(face_facts)) {
       if (!face_facts.at_raw_level()) continue;
       const std::uint32_t v[3] = {raw(face.v[0]), raw(face.v[1]), raw(face.v[2])};
-      for (int k = 0; k < 3; ++k) push({v[k], v[(k + 1) % 3], v[(k + 2) % 3]});
+      for (int k = 0; k < 3; ++k) push(0, {v[k], v[(k + 1) % 3], v[(k + 2) % 3]});
     }
   };
   return KeyedGroups<StarCorner>::distribute(engine, 3 * faces.size(), vertices,

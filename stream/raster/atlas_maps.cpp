@@ -129,7 +129,7 @@ class SlotMap {
           while (reader.read(triangle)) {
             visit_touched(triangle.triangle, frames_, grid_, [&](std::uint32_t tile) {
               triangle.triangle.bin = tile;
-              push(triangle);
+              push(0, triangle);
             });
           }
         },
@@ -224,8 +224,8 @@ KeyedGroups<MapTriangle>::Buckets distribute_to_slots(const Engine& engine, Atla
          charts.read(chart) && faces.read(face) && distortions.read(distortion); ++number) {
       if (!face.is_drawn()) continue;
       const SlotFrame& frame = atlas.frames.of(face.slot());
-      push({{raw(face.slot()), chart.first(), {face.uv(0), face.uv(1), face.uv(2)}},
-            look_of(number, face, distortion, frame, scaling_unit)});
+      push(0, {{raw(face.slot()), chart.first(), {face.uv(0), face.uv(1), face.uv(2)}},
+               look_of(number, face, distortion, frame, scaling_unit)});
     }
   };
   return KeyedGroups<MapTriangle>::distribute(engine, atlas.faces.size(), atlas.frames.all().size(),

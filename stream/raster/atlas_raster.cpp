@@ -284,7 +284,7 @@ KeyedGroups<BinTriangle>::Buckets distribute_to_slots(const Engine& engine, Spil
     Label chart;
     while (face_reader.read(face) && chart_reader.read(chart)) {
       if (!face.is_drawn()) continue;
-      push({raw(face.slot()), chart.first(), {face.uv(0), face.uv(1), face.uv(2)}});
+      push(0, {raw(face.slot()), chart.first(), {face.uv(0), face.uv(1), face.uv(2)}});
     }
   };
   return KeyedGroups<BinTriangle>::distribute(engine, faces.size(), frames.all().size(),

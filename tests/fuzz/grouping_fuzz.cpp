@@ -71,7 +71,7 @@ void check_sort(TestEngine& engine, const Items& items) {
 void check_groups(TestEngine& engine, const Items& items, std::uint32_t key_end) {
   using Groups = KeyedGroups<Item>;
   auto buckets = Groups::distribute(engine, items.size(), key_end, "this test", [&](auto push) {
-    for (const Item& item : items) push(item);
+    for (const Item& item : items) push(0, item);
   });
   std::map<std::uint32_t, Items> got;
   bool repeated = false;

@@ -177,8 +177,9 @@ TEST(KeyedGroupsErrorTest, ErrorOfAGroupIsThrown) {
 TEST(KeyedGroupsDistributeTest, EveryRecordComesToTheBucketOfItsKey) {
   for (const std::uint64_t kib : {64, 4096}) {
     TestEngine engine({.budget_bytes = kib << 10});
-    auto buckets = KeyedGroups<Pebble>::distribute(engine, 9000, 1000, "pebbles", [](auto push) {
-      for (std::uint32_t i = 0; i < 9000; ++i) push(Pebble{i % 1000, i});
+    const std::size_t engine_workers = engine.workers.count();
+    auto buckets = KeyedGroups<Pebble>::distribute(engine, 9000, 1000, "pebbles", [&](auto push) {
+      for (std::uint32_t i = 0; i < 9000; ++i) push(i % engine_workers, Pebble{i % 1000, i});
     });
     ASSERT_EQ(buckets.spills.size(), buckets.ranges.bucket_count());
     std::uint64_t records = 0;
