@@ -27,6 +27,7 @@ void redirect(int to, const std::string& path) {
   redirect(STDOUT_FILENO, out);
   redirect(STDERR_FILENO, err);
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& argument : command) {
     arguments.push_back(const_cast<char*>(argument.c_str()));
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "io/bytes.hpp"
 
@@ -72,8 +73,8 @@ RunFigures median_of(const std::vector<RunFigures>& runs) {
   result.system_seconds = median(runs, [](const RunFigures& r) { return r.system_seconds; });
   result.peak_resident_bytes =
       median(runs, [](const RunFigures& r) { return r.peak_resident_bytes; });
-  for (auto& [what, count] : result.cost.bytes) {
-    count = median(runs, [&](const RunFigures& r) { return r.cost.bytes_of(what); });
+  for (auto& line : result.cost.bytes) {
+    line.second = median(runs, [&](const RunFigures& r) { return r.cost.bytes_of(line.first); });
   }
   for (std::size_t i = 0; i < result.cost.stages.size(); ++i) {
     const auto of_stage = [&](auto figure) {

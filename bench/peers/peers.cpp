@@ -1,7 +1,6 @@
 // What other programs need for parts of the same work, beside ours.
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

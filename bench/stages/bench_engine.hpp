@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,14 +23,16 @@ inline std::string name_of(Room room) {
   return room == Room::kInMemory ? "in_memory" : "beyond_memory";
 }
 
+/// What stages are timed with.
+inline constexpr std::array<std::size_t, 2> kThreads{1, 2};
+
 /// An engine for about so many bytes of records, with all that it refers to.
 class BenchEngine {
  public:
   BenchEngine(Room room, std::uint64_t record_bytes, std::size_t threads)
       : BenchEngine(size_for(room, record_bytes), threads) {}
 
-  operator const Engine&() const { return engine_; }
-  const Engine* operator->() const { return &engine_; }
+  const Engine& engine() const { return engine_; }
 
   /// Whether the records went where they were to go.
   bool kept_to_its_room() const { return (scratch_.spilled_bytes() > 0) == (resident_bytes_ == 0); }

@@ -64,12 +64,12 @@ class EdgesJob : public Job {
   void prepare() override {
     results_ = {};
     engine_ =
-        std::make_unique<BenchEngine>(plan_.room, 3 * grid_.faces() * kRecordBytes, plan_.threads);
+        std::make_unique<BenchEngine>(plan_.room, 3 * kRecordBytes * grid_.faces(), plan_.threads);
     sinks_ = std::make_unique<CountingSinks>(plan_.threads);
   }
 
   void run() override {
-    const Engine& engine = *engine_;
+    const Engine& engine = engine_->engine();
     const auto table = EdgeTable::make(engine, plan_.welded, grid_.faces(), grid_.vertices(),
                                        engine.budget.free_bytes() / 2);
     engine.workers.for_each(source_.batches(), [&](std::size_t worker, std::size_t batch) {
@@ -139,7 +139,7 @@ std::vector<NamedJob> jobs(std::uint64_t faces) {
   for (const Order order : {Order::kMesh, Order::kRandom}) {
     for (const bool welded : {false, true}) {
       for (const Room room : {Room::kInMemory, Room::kBeyondMemory}) {
-        for (const std::size_t threads : {1, 2}) {
+        for (const std::size_t threads : kThreads) {
           const Plan plan{order, welded, room, threads};
           add("edges/" + plan.name(), [=] { return std::make_unique<EdgesJob>(grid, plan); });
         }

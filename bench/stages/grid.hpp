@@ -30,7 +30,8 @@ class Grid {
   std::uint32_t seam_edges() const { return (charts() - 1) * side_; }
 
   Position position(std::uint32_t vertex) const {
-    return {static_cast<double>(vertex / points()), static_cast<double>(vertex % points()), 0};
+    const std::uint32_t x = vertex / points(), y = vertex % points();
+    return {static_cast<double>(x), static_cast<double>(y), 0};
   }
 
   TexCoord texcoord(std::uint32_t index) const { return uv(index / points(), index % points()); }

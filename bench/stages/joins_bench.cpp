@@ -40,13 +40,15 @@ class GatherJob : public Job {
   void prepare() override {
     clear();
     engine_ = std::make_unique<BenchEngine>(room_, records_ * sizeof(Position), 1);
-    Scratch& scratch = (*engine_)->scratch;
+    Scratch& scratch = engine_->engine().scratch;
     table_ = table_of(scratch, records_);
     SpillWriter<std::uint32_t> indices(scratch);
     for (std::uint32_t i = 0; i < records_; ++i) indices.push(ordering_(i));
     indices_ = indices.finish();
   }
-  void run() override { found_ = gather(*engine_, std::move(indices_), table_, Position{}); }
+  void run() override {
+    found_ = gather(engine_->engine(), std::move(indices_), table_, Position{});
+  }
   void check() override {
     expect(found_.size() == records_, "records are missing");
     SpillReader<Position> reader(found_);
@@ -81,11 +83,11 @@ class PageCacheJob : public Job {
   void prepare() override {
     table_ = {};
     engine_ = std::make_unique<BenchEngine>(Room::kBeyondMemory, records_ * sizeof(Position), 1);
-    table_ = table_of((*engine_)->scratch, records_);
+    table_ = table_of(engine_->engine().scratch, records_);
     sum_ = 0;
   }
   void run() override {
-    PageCache<Position> cache(table_, (*engine_)->budget.free_bytes());
+    PageCache<Position> cache(table_, engine_->engine().budget.free_bytes());
     for (std::uint32_t i = 0; i < lookups_; ++i) sum_ += cache.at(ordering_(i)).x;
   }
   void check() override {
@@ -110,7 +112,7 @@ class JoinJob : public Job {
   void prepare() override {
     mesh_ = {};
     engine_ = std::make_unique<BenchEngine>(room_, 40 * std::uint64_t{grid_.faces()}, threads_);
-    mesh_ = grid_.store((*engine_)->scratch, ordering_);
+    mesh_ = grid_.store(engine_->engine().scratch, ordering_);
     joined_ = 0;
   }
   void run() override {
@@ -133,7 +135,7 @@ class JoinJob : public Job {
  private:
   template <class Look>
   void visit(Look look) {
-    const Engine& engine = *engine_;
+    const Engine& engine = engine_->engine();
     StageLog::Stage stage(engine.log, "join");
     std::vector<std::uint64_t> counts(threads_);
     FaceVisitor visitor;
@@ -170,7 +172,7 @@ std::vector<NamedJob> jobs(std::uint64_t size) {
                    [=] { return std::make_unique<PageCacheJob>(records, order, lookups); },
                    "record", lookups});
     for (const Room room : {Room::kInMemory, Room::kBeyondMemory}) {
-      for (const std::size_t threads : {1, 2}) {
+      for (const std::size_t threads : kThreads) {
         all.push_back({std::string("join/") + name_of(order) + "/" + name_of(room) +
                            "/threads:" + std::to_string(threads),
                        [=] { return std::make_unique<JoinJob>(grid, order, room, threads); },

@@ -83,12 +83,13 @@ class LabelsJob : public Job {
     links_ = {};
     labels_ = {};
     engine_ = std::make_unique<BenchEngine>(room_, kNodeBytes * graph_.nodes, 1);
-    SpillWriter<Link> writer((*engine_)->scratch);
+    SpillWriter<Link> writer(engine_->engine().scratch);
     graph_.for_each_link([&](std::uint32_t a, std::uint32_t b) { writer.push({a, b}); });
     links_ = writer.finish();
   }
   void run() override {
-    labels_ = label_nodes(*engine_, std::move(links_), graph_.nodes, LinkRule::kManifoldOnly);
+    labels_ =
+        label_nodes(engine_->engine(), std::move(links_), graph_.nodes, LinkRule::kManifoldOnly);
   }
   void check() override {
     expect(labels_.size() == graph_.nodes, "labels are missing");

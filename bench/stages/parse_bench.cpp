@@ -107,7 +107,7 @@ class StageJob : public Job {
   }
   void run() override {
     ObjSummary summary;
-    mesh_ = read_mesh(*engine_, path_, warnings_, summary);
+    mesh_ = read_mesh(engine_->engine(), path_, warnings_, summary);
   }
   void check() override {
     ObjTotals totals;
@@ -144,7 +144,7 @@ int main(int argc, char** argv) {
     };
     add("reader/threads:1", [&] { return std::make_unique<ReaderJob>(*grid); });
     for (const Room room : {Room::kInMemory, Room::kBeyondMemory}) {
-      for (const std::size_t threads : {1, 2}) {
+      for (const std::size_t threads : kThreads) {
         add("read/" + name_of(room) + "/threads:" + std::to_string(threads),
             [=, &grid] { return std::make_unique<StageJob>(*grid, path, room, threads); });
       }

@@ -25,15 +25,16 @@ class QuantilesJob : public Job {
     engine_ = std::make_unique<BenchEngine>(room_, samples_ * sizeof(Sample), threads_);
   }
   void run() override {
-    SampleStore store((*engine_)->scratch);
+    SampleStore store(engine_->engine().scratch);
     SampleStore::Writer writer(store);
     for (std::uint64_t i = 0; i < samples_; ++i) {
       writer.push({1 + static_cast<double>(order_(i)), 0.25});
     }
     writer.flush();
     const auto nobody = [](std::size_t, const Sample&) {};
-    found_ =
-        select_up_to(*engine_, store.finish(), std::numeric_limits<double>::infinity(), nobody).all;
+    found_ = select_up_to(engine_->engine(), store.finish(),
+                          std::numeric_limits<double>::infinity(), nobody)
+                 .all;
   }
   void check() override {
     for (std::size_t i = 0; i < Quantiles::kPercents.size(); ++i) {
@@ -58,7 +59,7 @@ class QuantilesJob : public Job {
 std::vector<NamedJob> jobs(std::uint64_t samples) {
   std::vector<NamedJob> all;
   for (const Room room : {Room::kInMemory, Room::kBeyondMemory}) {
-    for (const std::size_t threads : {1, 2}) {
+    for (const std::size_t threads : kThreads) {
       all.push_back({"percentiles/" + name_of(room) + "/threads:" + std::to_string(threads),
                      [=] { return std::make_unique<QuantilesJob>(samples, room, threads); },
                      "sample", samples});

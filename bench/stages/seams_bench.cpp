@@ -99,7 +99,7 @@ class SeamsJob : public Job {
     engine_ =
         std::make_unique<BenchEngine>(room_, 3 * texels * scene_.options().textures, threads_);
     sinks_ = std::make_unique<CountingSinks>(threads_);
-    SpillWriter<SeamCandidate> writer((*engine_)->scratch);
+    SpillWriter<SeamCandidate> writer(engine_->engine().scratch);
     for (std::uint64_t i = 0; i < scene_.options().edges; ++i) {
       writer.push(candidate(scene_.edge(i), static_cast<std::uint32_t>(i)));
     }
@@ -112,7 +112,8 @@ class SeamsJob : public Job {
       const auto texture = static_cast<std::uint32_t>(std::stoul(path));
       return std::make_unique<ColourRows>(size_of(scene_), scene_.colour(texture));
     };
-    results_ = sample_seams(*engine_, std::move(edges_), slots_, frames_, plan, warnings_, *sinks_);
+    results_ = sample_seams(engine_->engine(), std::move(edges_), slots_, frames_, plan, warnings_,
+                            *sinks_);
   }
   void check() override {
     double expected = 0;
@@ -154,7 +155,7 @@ int main(int argc, char** argv) {
     const std::uint64_t pairs = scene->sample_pairs();
     std::vector<NamedJob> all;
     for (const Room room : {Room::kInMemory, Room::kBeyondMemory}) {
-      for (const std::size_t threads : {1, 2}) {
+      for (const std::size_t threads : kThreads) {
         all.push_back({"seams/" + name_of(room) + "/threads:" + std::to_string(threads),
                        [=, &scene] { return std::make_unique<SeamsJob>(*scene, room, threads); },
                        "sample_pair", pairs});

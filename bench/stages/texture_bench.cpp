@@ -1,7 +1,5 @@
 // What it costs to decode images into tiles in scratch.
 
-#include <stdlib.h>
-
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -49,7 +47,7 @@ class DecodeJob : public Job {
   void run() override {
     const std::vector<bool> all(slots_.slots.size(), true);
     const DecodePlan plan{.model = "none", .open_image = open_image, .spare_bytes = kSpareBytes};
-    store_ = decode_images(*engine_, slots_, all, plan, warnings_);
+    store_ = decode_images(engine_->engine(), slots_, all, plan, warnings_);
   }
   void check() override {
     for (std::size_t i = 0; i < pictures_.paths.size(); ++i) {
@@ -116,7 +114,7 @@ int main(int argc, char** argv) {
     std::vector<NamedJob> all;
     for (std::size_t i = 0; i < formats.size(); ++i) {
       for (const Room room : {Room::kInMemory, Room::kBeyondMemory}) {
-        for (const std::size_t threads : {1, 2}) {
+        for (const std::size_t threads : kThreads) {
           all.push_back(
               {"decode/" + formats[i] + "/" + name_of(room) + "/threads:" + std::to_string(threads),
                [=, &pictures] { return std::make_unique<DecodeJob>(pictures[i], room, threads); },

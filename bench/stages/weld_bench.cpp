@@ -22,14 +22,15 @@ class WeldJob : public Job {
     weld_ = {};
     mesh_ = {};
     engine_ = std::make_unique<BenchEngine>(room_, vertices_ * sizeof(Position), threads_);
-    SpillWriter<Position> writer((*engine_)->scratch);
+    SpillWriter<Position> writer(engine_->engine().scratch);
     for (std::uint32_t i = 0; i < vertices_; ++i) {
       const std::uint32_t place = i % distinct_;
-      writer.push({static_cast<double>(place / 1024), static_cast<double>(place % 1024), 0.25});
+      const std::uint32_t x = place / 1024, y = place % 1024;
+      writer.push({static_cast<double>(x), static_cast<double>(y), 0.25});
     }
     mesh_.positions = writer.finish();
   }
-  void run() override { weld_ = weld_vertices(*engine_, mesh_); }
+  void run() override { weld_ = weld_vertices(engine_->engine(), mesh_); }
   void check() override {
     expect(weld_.duplicates == vertices_ - distinct_, "duplicates are missing");
     SpillReader<VertexId> reader(weld_.welded);
@@ -57,7 +58,7 @@ std::vector<NamedJob> jobs(std::uint64_t size) {
   for (const bool some_coincide : {false, true}) {
     const std::uint32_t distinct = some_coincide ? vertices - vertices / 8 : vertices;
     for (const Room room : {Room::kInMemory, Room::kBeyondMemory}) {
-      for (const std::size_t threads : {1, 2}) {
+      for (const std::size_t threads : kThreads) {
         all.push_back(
             {std::string(some_coincide ? "weld/an_eighth_coincide/" : "weld/none_coincide/") +
                  name_of(room) + "/threads:" + std::to_string(threads),
