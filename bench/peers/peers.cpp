@@ -93,7 +93,7 @@ class Contest {
   }
 
   std::string table() const {
-    std::string text = fmt::format("{:<40}{:>10}{:>10}{:>14}{:>16}{:>12}\n", title_, "CPU s",
+    std::string text = fmt::format("{:<40}{:>10}{:>10}{:>14}{:>18}{:>12}\n", title_, "CPU s",
                                    "wall s", "peak RSS", "ns per " + item_, "CPU / ours");
     const double ours = results_.front().run.cpu_seconds();
     for (const Result& result : results_) {
@@ -103,7 +103,7 @@ class Contest {
         continue;
       }
       const double cpu = result.run.cpu_seconds();
-      text += fmt::format("{:>10.2f}{:>10.2f}{:>14}{:>16.1f}{:>12.1f}\n", cpu,
+      text += fmt::format("{:>10.2f}{:>10.2f}{:>14}{:>18.1f}{:>12.1f}\n", cpu,
                           result.run.wall_seconds, format_bytes(result.run.peak_resident_bytes),
                           1e9 * cpu / static_cast<double>(items_), cpu / ours);
     }
