@@ -183,7 +183,7 @@ double tile_bytes(const ModelGuess& guess, const MemoryPlan& plan) {
   const double side = guess.images > 0 ? guess.largest_side_texels : kUsualTextureSide;
   const std::int64_t size = choose_tile_size(plan.engine_bytes - plan.resident_bytes, plan.workers,
                                              static_cast<std::int64_t>(side));
-  return kTouched * static_cast<double>(plan.workers * pyramid_bytes(size));
+  return kTouched * static_cast<double>(plan.workers * worker_tiles_bytes(size));
 }
 
 /// Measured on a million faces and more, in nanoseconds: a byte of text, a vertex, a face, a face
