@@ -42,12 +42,13 @@ class RegionsRaster {
  public:
   RegionsRaster(const Engine& engine, const SlotFrames& frames, const RasterPlan& plan,
                 const AtlasRegions& regions, const std::vector<std::uint32_t>& triangles,
-                StageLog::Stage& stage)
+                std::uint64_t faces, StageLog::Stage& stage)
       : engine_(engine),
         frames_(frames),
         regions_(regions),
         parts_(engine.scratch),
         whole_(engine, frames, regions, triangles, parts_),
+        faces_(faces),
         stage_(stage) {
     for (std::size_t i = 0; i < engine.workers.count(); ++i) {
       painters_.emplace_back(plan.make(), parts_);
@@ -66,7 +67,7 @@ class RegionsRaster {
         [&](std::uint32_t region, Spill<RegionTriangle> triangles) {
           draw_hot(regions_.region(region), std::move(triangles));
         });
-    groups.process(std::move(bins), &stage_);
+    groups.process(std::move(bins));
     whole_.finish();
   }
 
@@ -109,8 +110,11 @@ class RegionsRaster {
   void draw(std::size_t worker, const Region& region, std::span<const RegionTriangle> triangles) {
     Painter& painter = painters_[worker];
     TilePyramid& whole = whole_.tiles_of(worker, region.slot);
-    whole_.add(worker,
-               painter.raster.draw(triangles, frames_.of(region.slot), painter.tiles, whole));
+    const std::uint64_t drawn =
+        painter.raster.draw(triangles, frames_.of(region.slot), painter.tiles, whole);
+    whole_.add(worker, drawn);
+    const std::uint64_t drawn_by_all = drawn_.fetch_add(drawn) + drawn;
+    if (worker == 0) stage_.progress(faces_ + drawn_by_all);
   }
 
   void count(std::size_t worker, const Region& region) {
@@ -138,7 +142,9 @@ class RegionsRaster {
   const AtlasRegions& regions_;
   LevelParts parts_;
   WholeLevels whole_;
-  StageLog::Stage& stage_;
+  const std::uint64_t faces_;
+  StageLog::Stage& stage_;  ///< whose work is to distribute the faces, and to draw them
+  std::atomic<std::uint64_t> drawn_ = 0;
   std::vector<Painter> painters_;
 };
 
@@ -146,7 +152,8 @@ class RegionsRaster {
 
 RasterResults raster_atlas(const Engine& engine, Spill<Label>& charts, Spill<AtlasFace>& faces,
                            const SlotFrames& frames, const RasterPlan& plan, GroupSinks& sinks) {
-  StageLog::Stage stage(engine.log, "raster", 2 * faces.size());
+  const std::uint64_t face_count = faces.size();
+  StageLog::Stage stage(engine.log, "raster", 2 * face_count);
   const std::int64_t side = tile_size(engine, frames, plan);
   const Reservation regions_memory =
       engine.budget.reserve(AtlasRegions::memory_bytes(frames, side) +
@@ -161,7 +168,7 @@ RasterResults raster_atlas(const Engine& engine, Spill<Label>& charts, Spill<Atl
   Spill<LevelPart> parts;
   {
     const Reservation tiles_memory = engine.budget.reserve(tiles_bytes, "tiles of texels");
-    RegionsRaster raster(engine, frames, plan, regions, bins.triangles, stage);
+    RegionsRaster raster(engine, frames, plan, regions, bins.triangles, face_count, stage);
     raster.draw(std::move(bins.buckets));
     results.work = raster.work();
     parts = raster.finish();

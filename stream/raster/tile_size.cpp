@@ -22,11 +22,9 @@ std::uint64_t worker_tiles_bytes(std::int64_t side) {
   return 2 * bytes;
 }
 
-std::int64_t choose_tile_size(std::uint64_t free_bytes, std::size_t workers,
-                              std::int64_t largest_side) {
+std::int64_t choose_tile_size(std::uint64_t free_bytes, std::size_t workers, std::int64_t most) {
   const std::uint64_t bytes = free_bytes / kTileShare / workers;
-  const auto largest = static_cast<std::int64_t>(
-      std::bit_ceil(static_cast<std::uint64_t>(std::min(kLargestTile, largest_side))));
+  const auto largest = static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(most)));
   std::int64_t size = kSmallestTile;
   while (2 * size <= largest && worker_tiles_bytes(2 * size) <= bytes) size *= 2;
   return size;
