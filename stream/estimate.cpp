@@ -23,7 +23,7 @@
 #include "stream/mesh/face_stream.hpp"
 #include "stream/mesh/mesh_store.hpp"
 #include "stream/mesh/records.hpp"
-#include "stream/raster/bin_triangle.hpp"
+#include "stream/raster/region_triangle.hpp"
 #include "stream/raster/tile_size.hpp"
 #include "stream/seams/decode.hpp"
 #include "stream/seams/texel_lookup.hpp"
@@ -169,8 +169,9 @@ std::vector<StageNeed> stage_needs(const ModelGuess& guess, const MemoryPlan& pl
       {kept + half_edges, 2 * half_edges},               // edges: loaded and sorted
       {kept + 3 * f * sizeof(Link) + 36 * f, 72 * f},    // stars: three corners a face
       {tables + f * 8, v * 8},                           // labels of vertices
-      {rest + 3 * f * sizeof(BinTriangle),
-       tiles_bytes + 2 * f * sizeof(BinTriangle)},  // raster, of two levels
+      // Raster: faces become triangles in regions, a few of them in several.
+      {rest + f * (sizeof(Label) + sizeof(AtlasFace)),
+       tiles_bytes + 2 * f * sizeof(RegionTriangle)},
       {rest + guess.decoded_bytes,
        static_cast<double>(plan.workers) * guess.decoding_bytes},                   // images
       {rest + guess.decoded_bytes + seams.texel_bytes(), 2 * seams.texel_bytes()},  // seams
@@ -181,9 +182,10 @@ std::vector<StageNeed> stage_needs(const ModelGuess& guess, const MemoryPlan& pl
 double tile_bytes(const ModelGuess& guess, const MemoryPlan& plan) {
   if (guess.texcoords == 0) return 0;
   const double side = guess.images > 0 ? guess.largest_side_texels : kUsualTextureSide;
-  const std::int64_t size = choose_tile_size(plan.engine_bytes - plan.resident_bytes, plan.workers,
-                                             static_cast<std::int64_t>(side));
-  return kTouched * static_cast<double>(plan.workers * pyramid_bytes(size));
+  const std::int64_t largest = std::min(kLargestTile, static_cast<std::int64_t>(side));
+  const std::int64_t size =
+      choose_tile_size(plan.engine_bytes - plan.resident_bytes, plan.workers, largest);
+  return kTouched * static_cast<double>(plan.workers * worker_tiles_bytes(size));
 }
 
 /// Measured on a million faces and more, in nanoseconds: a byte of text, a vertex, a face, a face

@@ -47,6 +47,7 @@ class AtlasFace {
         area_3d_(std::bit_cast<std::array<std::uint32_t, 2>>(triangle.area_3d)) {}
 
   const TexCoord& uv(int corner) const { return uv_[corner]; }
+  const TexCoord (&uv() const)[3] { return uv_; }
   SlotId slot() const {
     const std::uint32_t slot = bits_ & kSlotMask;
     return slot == kSlotMask ? kNone<SlotId> : SlotId{slot};

@@ -25,8 +25,8 @@ struct RasterPlan {
 /// What the raster did, for those who want to see that it did.
 struct RasterWork {
   std::int64_t tile_size = 0;
-  std::uint64_t tiles = 0;  ///< drawn; one for all levels of a slot that fit one tile
-  RasterTally triangles;    ///< by raster; once for each tile that a triangle may touch
+  std::uint64_t tiles = 0;  ///< drawn: regions, and one for all levels of a slot drawn whole
+  RasterTally triangles;    ///< by raster; once for each level of a tile that it touches
 };
 
 struct RasterResults {
@@ -37,12 +37,11 @@ struct RasterResults {
 /// Draws all faces on all mip levels of their slots, and hands out the TextureLevel groups.
 /// `charts` labels the faces by chart, `faces` are in the same order.
 ///
-/// Triangles are distributed to bins, one a slot. The levels of a slot that fit one tile are drawn
-/// in one pass over its bin, which distributes the triangles to the tiles of the larger levels at
-/// the same time; those are drawn one by one. A bin that fits in the memory of a worker is worked
-/// on by that worker; a larger one by all workers, each in tiles of its own, which are then merged.
-/// So neither a slot nor a tile needs memory for its triangles, and scratch holds those of all
-/// slots once, and once a level those of one slot.
+/// Triangles are distributed to regions (atlas_regions.hpp), once for all levels. Regions are drawn
+/// one by one, each by one worker if its triangles fit in memory, else by all, each in tiles of its
+/// own, which are then merged. With its regions each worker draws those levels of their slot that
+/// are in no region, as far as its triangles go. So neither a slot nor a region needs memory for
+/// its triangles, and scratch holds those of all slots about once.
 RasterResults raster_atlas(const Engine& engine, Spill<Label>& charts, Spill<AtlasFace>& faces,
                            const SlotFrames& frames, const RasterPlan& plan, GroupSinks& sinks);
 

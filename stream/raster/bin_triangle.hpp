@@ -5,14 +5,15 @@
 
 #include "io/mesh_batch.hpp"
 #include "stream/mesh/triangle.hpp"
+#include "stream/raster/mip_levels.hpp"
 #include "stream/raster/raster.hpp"
 #include "stream/raster/texel_tile.hpp"
 #include "stream/raster/tile_grid.hpp"
 
 namespace atlasgauge {
 
-/// A triangle on its way to the raster: first in the bin of its slot, then in those of the tiles
-/// that it may touch. It carries its UVs, as every level snaps them for itself.
+/// A triangle on its way to a map: first in the bin of its slot, then in those of the tiles that it
+/// may touch. It carries its UVs, as every level snaps them for itself.
 struct BinTriangle {
   std::uint32_t bin;
   std::uint32_t chart;
@@ -22,14 +23,7 @@ struct BinTriangle {
 };
 static_assert(sizeof(BinTriangle) == 32);
 
-/// The frame of a slot at one of its mip levels.
-inline SlotFrame at_level(SlotFrame frame, const LevelSize& size) {
-  frame.width = static_cast<double>(size.width);
-  frame.height = static_cast<double>(size.height);
-  return frame;
-}
-
-/// The same for some levels.
+/// The frames of a slot at some of its mip levels.
 inline std::vector<SlotFrame> at_levels(const SlotFrame& frame,
                                         const std::vector<LevelSize>& sizes) {
   std::vector<SlotFrame> frames;
@@ -43,7 +37,7 @@ inline std::vector<SlotFrame> at_levels(const SlotFrame& frame,
 template <class Use>
 void visit_touched(const BinTriangle& triangle, const std::vector<SlotFrame>& frames,
                    const TileGrid& grid, Use use) {
-  for (std::uint32_t level = 0; level < grid.tiled_levels(); ++level) {
+  for (std::uint32_t level = 0; level < grid.level_count(); ++level) {
     const SlotFrame& frame = frames[level];
     const Texel corner[3] = {frame.texel(triangle.uv[0]), frame.texel(triangle.uv[1]),
                              frame.texel(triangle.uv[2])};
@@ -51,16 +45,8 @@ void visit_touched(const BinTriangle& triangle, const std::vector<SlotFrame>& fr
   }
 }
 
-/// In 1/256 texel of the level that `frame` is of.
 inline SnappedTriangle snapped(const BinTriangle& triangle, const SlotFrame& frame) {
-  SnappedTriangle result;
-  for (int k = 0; k < 3; ++k) {
-    const Texel texel = frame.texel(triangle.uv[k]);
-    result.x[k] = snap(texel.x);
-    result.y[k] = snap(texel.y);
-  }
-  result.chart = triangle.chart;
-  return result;
+  return snapped(triangle.uv, triangle.chart, frame);
 }
 
 }  // namespace atlasgauge

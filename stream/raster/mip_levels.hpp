@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "stream/mesh/triangle.hpp"
 #include "stream/raster/texel_tile.hpp"
 
 namespace atlasgauge {
@@ -38,5 +39,16 @@ class MipLevels {
  private:
   std::int64_t width_, height_;
 };
+
+inline MipLevels levels_of(const SlotFrame& frame) {
+  return {static_cast<std::uint64_t>(frame.width), static_cast<std::uint64_t>(frame.height)};
+}
+
+/// The frame of a slot at one of its mip levels.
+inline SlotFrame at_level(SlotFrame frame, const LevelSize& size) {
+  frame.width = static_cast<double>(size.width);
+  frame.height = static_cast<double>(size.height);
+  return frame;
+}
 
 }  // namespace atlasgauge

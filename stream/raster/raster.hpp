@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "io/mesh_batch.hpp"
+#include "stream/mesh/triangle.hpp"
 #include "stream/raster/texel_tile.hpp"
 
 namespace atlasgauge {
@@ -23,6 +25,19 @@ inline std::int64_t snap(double texels) {
   constexpr double kIntegers = 0x1.8p52;
   return std::bit_cast<std::int64_t>(texels * 256 + kIntegers) -
          std::bit_cast<std::int64_t>(kIntegers);
+}
+
+/// In 1/256 texel of the level that `frame` is of.
+inline SnappedTriangle snapped(const TexCoord (&uv)[3], std::uint32_t chart,
+                               const SlotFrame& frame) {
+  SnappedTriangle result;
+  for (int k = 0; k < 3; ++k) {
+    const Texel texel = frame.texel(uv[k]);
+    result.x[k] = snap(texel.x);
+    result.y[k] = snap(texel.y);
+  }
+  result.chart = chart;
+  return result;
 }
 
 /// The first texel whose centre (at 256 i + 128) is not below a position.

@@ -49,6 +49,8 @@ class TexelTile {
   const TexelRect& window() const { return window_; }
 
   std::size_t stride() const { return stride_; }
+  /// Texels of the tile and its halo.
+  std::size_t texels() const { return charts_.size() - kPadding; }
   /// Position of a texel of the tile or its halo in the two arrays.
   std::size_t index(std::int64_t x, std::int64_t y) const {
     return static_cast<std::size_t>(y - rect_.y0 + 1) * stride_ +

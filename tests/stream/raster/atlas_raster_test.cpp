@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "io/ids.hpp"
-#include "stream/raster/bin_triangle.hpp"
 #include "stream/raster/mip_levels.hpp"
+#include "stream/raster/raster.hpp"
 #include "stream/raster/scalar_raster.hpp"
 #include "stream/raster/texel_counts.hpp"
 #include "tests/stream/mesh/stages.hpp"
@@ -124,9 +124,7 @@ std::vector<TextureLevel> draw_whole_levels(const Atlas& atlas) {
       for (std::size_t i = 0; i < atlas.faces.size(); ++i) {
         const AtlasFace& face = atlas.faces[i];
         if (face.slot() != SlotId{slot} || !face.is_drawn()) continue;
-        const BinTriangle triangle{
-            slot, atlas.charts[i].first(), {face.uv(0), face.uv(1), face.uv(2)}};
-        triangles.push_back(snapped(triangle, at_level(frame, size)));
+        triangles.push_back(snapped(face.uv(), atlas.charts[i].first(), at_level(frame, size)));
       }
       draw_naively(triangles, tile);
       all.push_back({SlotId{slot}, level, width >> level, height >> level, count_texels(tile)});
