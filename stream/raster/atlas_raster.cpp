@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "stream/engine/block_visit.hpp"
 #include "stream/engine/keyed_groups.hpp"
 #include "stream/raster/atlas_regions.hpp"
 #include "stream/raster/level_parts.hpp"
