@@ -1,6 +1,7 @@
 #include "stream/raster/whole_levels.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "stream/raster/mip_levels.hpp"
 
@@ -52,7 +53,20 @@ void WholeLevels::set_aside(const Worker& worker) {
   pieces_.push_back(std::move(piece));
 }
 
+/// Of workers that drew the same slot last, the first gets what all have drawn.
+void WholeLevels::merge_last_slots() {
+  for (std::size_t i = 0; i < workers_.size(); ++i) {
+    for (std::size_t k = i + 1; k < workers_.size(); ++k) {
+      Worker &to = workers_[i], &from = workers_[k];
+      if (to.slot != from.slot || to.drawn == 0 || from.drawn == 0) continue;
+      to.tiles.merge(from.tiles);
+      to.drawn += std::exchange(from.drawn, 0);
+    }
+  }
+}
+
 void WholeLevels::finish() {
+  merge_last_slots();
   for (Worker& worker : workers_) leave(worker);
   std::sort(pieces_.begin(), pieces_.end(),
             [](const Piece& a, const Piece& b) { return raw(a.slot) < raw(b.slot); });

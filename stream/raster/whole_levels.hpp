@@ -59,6 +59,7 @@ class WholeLevels {
   void leave(Worker& worker);
   void count(Worker& worker);
   void set_aside(const Worker& worker);
+  void merge_last_slots();
   void join(Worker& worker, std::span<Piece> pieces);
 
   const Engine& engine_;
