@@ -154,21 +154,23 @@ std::vector<StageNeed> stage_needs(const ModelGuess& guess, const MemoryPlan& pl
   const double positions = v * sizeof(Position);
   const double tables = positions + t * sizeof(TexCoord);
   const double model = tables + f * sizeof(FaceRecord);
+  // All at once, as with faces in random order. Where faces are near each other, most are grouped
+  // before they reach scratch.
   const double half_edges = 3 * f * sizeof(HalfEdge);
+  const double corners = 36 * f;
   // The smallest angle, and where there are UVs distortion and scaling.
   const double samples = f * sizeof(Sample) * (t > 0 ? 3 : 1);
-  const double kept =
-      f * (sizeof(FaceRecord) + sizeof(FaceFacts) + sizeof(AtlasFace)) + samples + positions;
+  const double kept = f * (sizeof(FaceFacts) + sizeof(AtlasFace)) + samples + positions;
   const double placed = v * (sizeof(Position) + sizeof(VertexId) + 4);
   const SeamGuess seams(guess);
   const double seam_bytes = seams.edges * sizeof(SeamCandidate);
   const double rest = positions + samples + seam_bytes;
   return {
-      {model + placed, 3 * placed},                      // weld: table at most half full
-      {tables - positions + kept + half_edges, tables},  // triangles
-      {kept + half_edges, 2 * half_edges},               // edges: loaded and sorted
-      {kept + 3 * f * sizeof(Link) + 36 * f, 72 * f},    // stars: three corners a face
-      {tables + f * 8, v * 8},                           // labels of vertices
+      {model + placed, 3 * placed},                                // weld: table at most half full
+      {tables - positions + kept + half_edges + corners, tables},  // triangles
+      {kept + half_edges + corners, 2 * half_edges},               // edges: loaded and sorted
+      {kept + corners + 3 * f * sizeof(Link), 2 * corners},        // stars
+      {tables + f * 8, v * 8},                                     // labels of vertices
       {rest + 3 * f * sizeof(BinTriangle),
        tiles_bytes + 2 * f * sizeof(BinTriangle)},  // raster, of two levels
       {rest + guess.decoded_bytes,

@@ -239,7 +239,8 @@ std::unique_ptr<CornerSource> choose_source(const Engine& engine, MeshStore& mes
 
 }  // namespace
 
-void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld, std::uint64_t memory_bytes,
+void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld,
+                 SpillReader<FaceRecord>::Mode mode, std::uint64_t memory_bytes,
                  StageLog::Stage& stage, const FaceVisitor& visitor) {
   Reservation memory;
   const std::unique_ptr<CornerSource> corners =
@@ -250,7 +251,7 @@ void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld, std::uint64_
     std::vector<JoinedFace> joined;
   };
   std::vector<Batch> batches(engine.workers.count());
-  SpillReader<FaceRecord> faces(mesh.faces);
+  SpillReader<FaceRecord> faces(mesh.faces, mode);
   std::uint64_t next_face = 0;
   Workers::Pipeline pipeline;
   pipeline.produce = [&](std::size_t worker) {
