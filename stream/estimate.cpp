@@ -48,6 +48,8 @@ constexpr double kUsualTextureSide = 4096;
 
 /// Estimates may be wrong by this factor; only what is beyond it is refused.
 constexpr double kTolerance = 1.5;
+/// Scratch is estimated for faces in random order; those near each other take down to half of it.
+constexpr double kScratchTolerance = 2;
 
 /// A model of whose text only the beginning is known, all of it vertices, is taken for a closed
 /// surface, with twice as many faces as vertices, an eighth of the texture coordinates doubled at
@@ -211,8 +213,8 @@ std::optional<std::uint64_t> free_space(const std::string& directory) {
   return space.available;
 }
 
-std::uint64_t least(double bytes) {
-  return static_cast<std::uint64_t>(bytes / kTolerance);
+std::uint64_t least(double estimate, double tolerance) {
+  return static_cast<std::uint64_t>(estimate / tolerance);
 }
 
 std::uint64_t labels_that_fit(const MemoryPlan& plan) {
@@ -279,7 +281,7 @@ CostEstimate estimate_cost(const ModelGuess& guess, const MemoryPlan& plan) {
 
 void require_resources(const ModelGuess& guess, const CostEstimate& cost, const MemoryPlan& plan,
                        const std::string& directory) {
-  const std::uint64_t nodes = least(std::max(guess.faces, guess.positions));
+  const std::uint64_t nodes = least(std::max(guess.faces, guess.positions), kTolerance);
   if (nodes > labels_that_fit(plan)) {
     throw Error(ErrorKind::kResource,
                 fmt::format("a model of about {:.0f} million faces or vertices needs more memory "
@@ -288,7 +290,8 @@ void require_resources(const ModelGuess& guess, const CostEstimate& cost, const 
                             plan.workers, format_bytes(2 * plan.limit_bytes)));
   }
   const std::optional<std::uint64_t> free_bytes = free_space(directory);
-  if (!free_bytes || least(static_cast<double>(cost.scratch_file_bytes)) <= *free_bytes) return;
+  const auto file_bytes = static_cast<double>(cost.scratch_file_bytes);
+  if (!free_bytes || least(file_bytes, kScratchTolerance) <= *free_bytes) return;
   throw Error(ErrorKind::kResource, directory, 0,
               fmt::format("about {} of scratch will be needed, but {} are free; free space there "
                           "or give another directory with --tmp-dir",

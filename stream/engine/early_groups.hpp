@@ -183,7 +183,7 @@ class EarlyGroups {
     std::uint32_t keys_of_early_cell(const Plan& plan, const LastUses& last_uses,
                                      double key_bytes) const {
       const double wanted_bytes =
-          std::min(kCellBytes, static_cast<double>(most_group_bytes / (2 * kScatter + 2)));
+          std::min(kCellBytes, static_cast<double>(most_group_bytes) / (2 * kScatter + 2));
       const std::uint64_t most = std::max<std::uint64_t>(1, plan.memory_bytes / 16 / kCellCost);
       std::uint32_t keys = last_uses.keys_per_range();
       while (keys < key_end && (keys * key_bytes < wanted_bytes || (key_end - 1) / keys >= most)) {
