@@ -48,6 +48,8 @@ constexpr double kUsualTextureSide = 4096;
 
 /// Estimates may be wrong by this factor; only what is beyond it is refused.
 constexpr double kTolerance = 1.5;
+/// Scratch is estimated for faces in random order; those near each other take down to half of it.
+constexpr double kScratchTolerance = 2;
 
 /// A model of whose text only the beginning is known, all of it vertices, is taken for a closed
 /// surface, with twice as many faces as vertices, an eighth of the texture coordinates doubled at
@@ -154,21 +156,23 @@ std::vector<StageNeed> stage_needs(const ModelGuess& guess, const MemoryPlan& pl
   const double positions = v * sizeof(Position);
   const double tables = positions + t * sizeof(TexCoord);
   const double model = tables + f * sizeof(FaceRecord);
+  // All at once, as with faces in random order. Where faces are near each other, most are grouped
+  // before they reach scratch.
   const double half_edges = 3 * f * sizeof(HalfEdge);
+  const double corners = 36 * f;
   // The smallest angle, and where there are UVs distortion and scaling.
   const double samples = f * sizeof(Sample) * (t > 0 ? 3 : 1);
-  const double kept =
-      f * (sizeof(FaceRecord) + sizeof(FaceFacts) + sizeof(AtlasFace)) + samples + positions;
+  const double kept = f * (sizeof(FaceFacts) + sizeof(AtlasFace)) + samples + positions;
   const double placed = v * (sizeof(Position) + sizeof(VertexId) + 4);
   const SeamGuess seams(guess);
   const double seam_bytes = seams.edges * sizeof(SeamCandidate);
   const double rest = positions + samples + seam_bytes;
   return {
-      {model + placed, 3 * placed},                      // weld: table at most half full
-      {tables - positions + kept + half_edges, tables},  // triangles
-      {kept + half_edges, 2 * half_edges},               // edges: loaded and sorted
-      {kept + 3 * f * sizeof(Link) + 36 * f, 72 * f},    // stars: three corners a face
-      {tables + f * 8, v * 8},                           // labels of vertices
+      {model + placed, 3 * placed},                                // weld: table at most half full
+      {tables - positions + kept + half_edges + corners, tables},  // triangles
+      {kept + half_edges + corners, 2 * half_edges},               // edges: loaded and sorted
+      {kept + corners + 3 * f * sizeof(Link), 2 * corners},        // stars
+      {tables + f * 8, v * 8},                                     // labels of vertices
       // Raster: faces become triangles in regions, a few of them in several.
       {rest + f * (sizeof(Label) + sizeof(AtlasFace)),
        tiles_bytes + 2 * f * sizeof(RegionTriangle)},
@@ -211,8 +215,8 @@ std::optional<std::uint64_t> free_space(const std::string& directory) {
   return space.available;
 }
 
-std::uint64_t least(double bytes) {
-  return static_cast<std::uint64_t>(bytes / kTolerance);
+std::uint64_t least(double estimate, double tolerance) {
+  return static_cast<std::uint64_t>(estimate / tolerance);
 }
 
 std::uint64_t labels_that_fit(const MemoryPlan& plan) {
@@ -279,7 +283,7 @@ CostEstimate estimate_cost(const ModelGuess& guess, const MemoryPlan& plan) {
 
 void require_resources(const ModelGuess& guess, const CostEstimate& cost, const MemoryPlan& plan,
                        const std::string& directory) {
-  const std::uint64_t nodes = least(std::max(guess.faces, guess.positions));
+  const std::uint64_t nodes = least(std::max(guess.faces, guess.positions), kTolerance);
   if (nodes > labels_that_fit(plan)) {
     throw Error(ErrorKind::kResource,
                 fmt::format("a model of about {:.0f} million faces or vertices needs more memory "
@@ -288,7 +292,8 @@ void require_resources(const ModelGuess& guess, const CostEstimate& cost, const 
                             plan.workers, format_bytes(2 * plan.limit_bytes)));
   }
   const std::optional<std::uint64_t> free_bytes = free_space(directory);
-  if (!free_bytes || least(static_cast<double>(cost.scratch_file_bytes)) <= *free_bytes) return;
+  const auto file_bytes = static_cast<double>(cost.scratch_file_bytes);
+  if (!free_bytes || least(file_bytes, kScratchTolerance) <= *free_bytes) return;
   throw Error(ErrorKind::kResource, directory, 0,
               fmt::format("about {} of scratch will be needed, but {} are free; free space there "
                           "or give another directory with --tmp-dir",

@@ -27,7 +27,9 @@ struct ModelGuess {
 };
 
 /// What a run will cost, by the sizes of the records that its stages keep. Made to be within a
-/// factor of 1.5 of what the run then uses where the guess is reliable.
+/// factor of 1.5 of what the run then uses where the guess is reliable and the faces are in random
+/// order. Where faces are near each other, it is an upper bound, up to twice what is used: whether
+/// they are does not show in a sample.
 struct CostEstimate {
   std::uint64_t scratch_bytes = 0;       ///< alive at once, in memory and on disk
   std::uint64_t scratch_file_bytes = 0;  ///< of these, on disk
@@ -41,7 +43,7 @@ ModelGuess guess_model(const std::string& path, const ImageProbe& probe);
 
 CostEstimate estimate_cost(const ModelGuess& guess, const MemoryPlan& plan);
 
-/// Throws Error(kResource) when even a third less than the estimate is more than the machine has:
+/// Throws Error(kResource) when even the least that the estimate allows is more than there is:
 /// free space for scratch in `directory`, or memory in the plan; the text names what would do.
 void require_resources(const ModelGuess& guess, const CostEstimate& cost, const MemoryPlan& plan,
                        const std::string& directory);

@@ -32,6 +32,7 @@ struct TriangleOutput {
 /// What the pass over all triangles leaves behind.
 struct TriangleResults {
   std::unique_ptr<EdgeTable> edges;
+  std::unique_ptr<StarTable> stars;
   Spill<FaceFacts> facts;    ///< in face order
   Spill<AtlasFace> faces;    ///< in face order
   Spill<float> distortions;  ///< in face order; empty unless asked for
@@ -63,6 +64,26 @@ void append_and_clear(SpillWriter<T>& writer, std::vector<T>& records) {
   records.clear();
 }
 
+/// The tables get more than half of the memory: the less they spill. Half-edges take three times as
+/// much as corners.
+void make_tables(const Engine& engine, const StreamOptions& options, MeshStore& mesh,
+                 const Weld& weld, const SlotFrames& frames, GroupSinks& sinks,
+                 TriangleResults& results) {
+  const std::uint64_t free_bytes = engine.budget.free_bytes();
+  LastUses last_faces = std::exchange(mesh.last_faces, {});
+  LastUses of_welded;
+  if (weld.found_any()) of_welded = last_faces_of_welded(engine, last_faces, weld);
+  EdgeTable::Plan plan{.welded = weld.found_any(),
+                       .faces = mesh.faces.size(),
+                       .vertices = mesh.positions.size(),
+                       .memory_bytes = free_bytes / 8 * 3,
+                       .keep_borders = static_cast<bool>(options.on_chart)};
+  results.edges =
+      EdgeTable::make(engine, plan, plan.welded ? of_welded : last_faces, frames, sinks);
+  results.stars = std::make_unique<StarTable>(
+      engine, StarTable::Plan{plan.faces, plan.vertices, free_bytes / 8}, last_faces, sinks);
+}
+
 TriangleResults stream_triangles(const Engine& engine, const StreamOptions& options,
                                  MeshStore& mesh, Weld& weld, const TextureSlots& slots,
                                  const SlotFrames& frames, GroupSinks& sinks) {
@@ -74,8 +95,7 @@ TriangleResults stream_triangles(const Engine& engine, const StreamOptions& opti
           8 * engine.block_bytes(),
       "samples and face facts");
   TriangleResults results;
-  results.edges = EdgeTable::make(engine, weld.found_any(), mesh.faces.size(),
-                                  mesh.positions.size(), engine.budget.free_bytes() / 2);
+  make_tables(engine, options, mesh, weld, frames, sinks, results);
   for (std::size_t i = 0; i < distributions; ++i) {
     results.samples.push_back(std::make_unique<SampleStore>(engine.scratch));
   }
@@ -92,18 +112,23 @@ TriangleResults stream_triangles(const Engine& engine, const StreamOptions& opti
     sink.accept(triangles);
     take_samples(sink, triangles, outputs[worker]);
     note_facts(triangles, options, outputs[worker]);
-    results.edges->add(worker, triangles, frames);
+    results.edges->add(worker, triangles);
+    results.stars->add(worker, triangles);
   };
   visitor.commit = [&](std::size_t worker) {
     append_and_clear(facts, outputs[worker].facts);
     append_and_clear(faces, outputs[worker].faces);
     append_and_clear(distortions, outputs[worker].distortions);
+    results.edges->pass(facts.size());
+    results.stars->pass(facts.size());
   };
   visit_triangles(engine, mesh, weld, slots, frames, engine.budget.free_bytes() / 8 * 7, stage,
                   visitor);
   for (TriangleOutput& output : outputs) {
     for (auto& writer : output.samples) writer.flush();
   }
+  results.edges->settle();
+  results.stars->settle();
   results.facts = facts.finish();
   results.faces = faces.finish();
   results.distortions = distortions.finish();
@@ -212,16 +237,15 @@ MeshFacts stream_model(const Engine& engine, const std::string& path, const Stre
   TriangleResults triangles =
       stream_triangles(engine, options, mesh, weld, facts.textures, frames, sinks);
   facts.vertices = std::move(mesh.positions);
+  mesh.faces.clear();
   mesh.texcoords.clear();
   weld.welded.clear();
 
   const bool wants_maps = static_cast<bool>(options.distortion_of);
-  const bool keep_borders = static_cast<bool>(options.on_chart);
-  EdgeResults edges = triangles.edges->group(frames, keep_borders, sinks);
+  EdgeResults edges = triangles.edges->finish();
   triangles.edges.reset();
-  const std::uint64_t boundary_vertices =
-      group_stars(engine, mesh.faces, triangles.facts, facts.positions, sinks);
-  mesh.faces.clear();
+  const std::uint64_t boundary_vertices = triangles.stars->finish();
+  triangles.stars.reset();
 
   stream_components(engine, edges, triangles.facts, sinks);
   facts.boundary_components = stream_boundary(engine, edges, facts.positions, boundary_vertices);

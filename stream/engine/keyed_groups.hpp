@@ -109,6 +109,29 @@ class KeyedGroups {
         largest_group_(largest_group),
         memory_(engine.workers.count()) {}
 
+  /// Loaded and sorted copy of one record.
+  static constexpr std::uint64_t record_bytes() { return 2 * sizeof(Record); }
+
+  /// Groups `count` records of keys [first, last) that load(std::span<Record>) copies, in
+  /// `memory_bytes` that the caller has reserved: record_bytes() each, and four a key, without
+  /// which sorting is slower. Any worker. The memory is kept for the next; see release_memory().
+  template <class Load>
+  void group(std::size_t worker, std::size_t count, std::pair<std::uint32_t, std::uint32_t> keys,
+             std::uint64_t memory_bytes, Load load) {
+    Memory& memory = memory_[worker];
+    resize(memory.loaded, count);
+    load(std::span<Record>(memory.loaded));
+    const std::uint64_t key_count = keys.second - keys.first;
+    const bool counting = key_count <= 4 * std::uint64_t{count} + 64 &&
+                          count * record_bytes() + 4 * key_count <= memory_bytes;
+    counting ? counting_sort(memory, keys) : comparison_sort(memory);
+    call_groups(worker, counting ? memory.sorted : memory.loaded);
+  }
+
+  void release_memory() {
+    for (Memory& memory : memory_) memory = {};
+  }
+
   /// Consumes the buckets. Uses what the budget has free, and needs about three blocks of it.
   void process(Buckets all_buckets, StageLog::Stage* stage = nullptr) {
     const KeyRanges ranges = all_buckets.ranges;
@@ -126,7 +149,7 @@ class KeyedGroups {
         sort_and_call(worker, std::move(buckets[bucket]), ranges.keys_of(bucket), worker_bytes);
         if (stage != nullptr && worker == 0) stage->progress(item + 1);
       });
-      for (Memory& memory : memory_) memory = {};
+      release_memory();
     }
     for (Spill<Record>& group : std::exchange(large_groups_, {})) hand_over(std::move(group));
     for (const std::size_t bucket : large) {
@@ -143,9 +166,6 @@ class KeyedGroups {
   /// Larger buckets fall out of the caches, and touch memory that smaller ones would use again.
   static constexpr std::uint64_t kUsefulBytes = 24 << 20;
 
-  /// Loaded and sorted copy of one record.
-  static constexpr std::uint64_t record_bytes() { return 2 * sizeof(Record); }
-
   Reservation reserve() const {
     const std::uint64_t least = engine_.workers.count() * (engine_.block_bytes() + 4096);
     return engine_.budget.reserve_between(least, ~std::uint64_t{0} >> 1, "grouping records by key");
@@ -157,16 +177,11 @@ class KeyedGroups {
 
   void sort_and_call(std::size_t worker, Spill<Record> bucket,
                      std::pair<std::uint32_t, std::uint32_t> keys, std::uint64_t worker_bytes) {
-    Memory& memory = memory_[worker];
-    memory.loaded.resize(bucket.size());
-    SpillReader<Record>(bucket, SpillReader<Record>::Mode::kConsume).read(memory.loaded);
-    bucket.clear();
-    const std::uint64_t key_count = keys.second - keys.first;
-    const std::uint64_t used = memory.loaded.size() * record_bytes() + engine_.block_bytes();
-    const bool counting =
-        key_count <= 4 * memory.loaded.size() + 64 && used + 4 * key_count <= worker_bytes;
-    counting ? counting_sort(memory, keys) : comparison_sort(memory);
-    call_groups(worker, counting ? memory.sorted : memory.loaded);
+    group(worker, bucket.size(), keys, worker_bytes - engine_.block_bytes(),
+          [&](std::span<Record> to) {
+            SpillReader<Record>(bucket, SpillReader<Record>::Mode::kConsume).read(to);
+            bucket.clear();
+          });
   }
 
   static void counting_sort(Memory& memory, std::pair<std::uint32_t, std::uint32_t> keys) {

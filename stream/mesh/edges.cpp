@@ -1,14 +1,12 @@
 #include "stream/mesh/edges.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <optional>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "stream/engine/keyed_groups.hpp"
+#include "stream/engine/early_groups.hpp"
 #include "stream/engine/sort_spill.hpp"
 
 namespace atlasgauge {
@@ -40,19 +38,31 @@ bool same_uv_edge(const HalfEdge& a, const HalfEdge& b) {
          bits_of(a.uv_hi) == bits_of(b.uv_hi);
 }
 
-/// Where one worker puts what its edges say.
+/// Where all workers put what their edges say.
+struct OutputSpills {
+  explicit OutputSpills(Scratch& scratch)
+      : raw_links(scratch),
+        uv_links(scratch),
+        boundary_links(scratch),
+        seams(scratch),
+        borders(scratch) {}
+
+  SharedSpill<Link> raw_links, uv_links, boundary_links;
+  SharedSpill<SeamCandidate> seams;
+  SharedSpill<BorderEdge> borders;
+};
+
+/// The part of one worker.
 struct Output {
-  Output(GroupSink& sink, SharedSpill<Link>& raw, SharedSpill<Link>& uv,
-         SharedSpill<Link>& boundary, SharedSpill<SeamCandidate>& seam,
-         SharedSpill<BorderEdge>& border, bool with_borders)
+  Output(GroupSink& sink, OutputSpills& spills, bool with_borders)
       : raw_edges(sink),
         uv_edges(sink),
-        raw_links(raw),
-        uv_links(uv),
-        boundary_links(boundary),
-        seams(seam),
+        raw_links(spills.raw_links),
+        uv_links(spills.uv_links),
+        boundary_links(spills.boundary_links),
+        seams(spills.seams),
         keep_borders(with_borders),
-        borders(border) {}
+        borders(spills.borders) {}
 
   void flush() {
     raw_edges.flush();
@@ -189,65 +199,62 @@ SeamCandidate seam_between(const HalfEdge& one, const HalfEdge& other) {
 template <class Record>
 class EdgeTableOf : public EdgeTable {
  public:
-  EdgeTableOf(const Engine& engine, std::uint64_t faces, std::uint64_t vertices,
-              std::uint64_t memory_bytes)
+  EdgeTableOf(const Engine& engine, const Plan& plan, const LastUses& last_faces,
+              const SlotFrames& frames, GroupSinks& sinks)
       : engine_(engine),
-        ranges_(KeyedGroups<Record>::plan(engine, 3 * faces, 0,
-                                          static_cast<std::uint32_t>(vertices),
-                                          engine.budget.free_bytes() / 8 * 7, memory_bytes)),
-        memory_(engine.budget.reserve(
-            Partition<Record>::memory_bytes(ranges_.bucket_count(), engine.workers.count(),
-                                            engine.block_bytes()),
-            "distributing half-edges")),
-        partition_(std::in_place, engine.scratch, ranges_.bucket_count()) {
-    for (std::size_t i = 0; i < engine.workers.count(); ++i) writers_.emplace_back(*partition_);
+        frames_(frames),
+        outputs_memory_(engine.budget.reserve(
+            5 * engine.block_bytes() + engine.workers.count() * kOutputBytes, "links of edges")),
+        spills_(engine.scratch),
+        half_edges_(engine.workers.count()),
+        groups_(
+            engine,
+            {3 * plan.faces, static_cast<std::uint32_t>(plan.vertices),
+             plan.memory_bytes - std::min(plan.memory_bytes, outputs_memory_.bytes()),
+             "grouping half-edges"},
+            last_faces,
+            [this](std::size_t worker, std::span<Record> star) {
+              split_star(star, outputs_[worker]);
+            },
+            [this](std::uint32_t, Spill<Record> star) {
+              split_hot_star(std::move(star), outputs_[0]);
+            }) {
+    for (std::size_t i = 0; i < engine.workers.count(); ++i) {
+      outputs_.emplace_back(sinks.of_worker(i), spills_, plan.keep_borders);
+    }
   }
 
-  void add(std::size_t worker, std::span<const Triangle> triangles,
-           const SlotFrames& frames) override {
+  void add(std::size_t worker, std::span<const Triangle> triangles) override {
+    std::vector<Record>& half_edges = half_edges_[worker];
+    half_edges.clear();
     for (const Triangle& triangle : triangles) {
       if (!triangle.at_raw_level()) continue;
-      const std::uint32_t bits = bits_of_face(triangle, frames);
+      const std::uint32_t bits = bits_of_face(triangle);
       for (int k = 0; k < 3; ++k) {
-        const Record record = half_edge(triangle, k, (k + 1) % 3, bits);
-        writers_[worker].push(ranges_.bucket_of(record.lo), record);
+        half_edges.push_back(half_edge(triangle, k, (k + 1) % 3, bits));
       }
     }
+    groups_.add(worker, half_edges);
+    groups_.group_passed(worker);
   }
 
-  EdgeResults group(const SlotFrames& frames, bool keep_borders, GroupSinks& sinks) override {
-    typename KeyedGroups<Record>::Buckets buckets = end_distribution();
-    StageLog::Stage stage(engine_.log, "edges", buckets.spills.size());
-    const Reservation outputs_memory = engine_.budget.reserve(
-        5 * engine_.block_bytes() + engine_.workers.count() * kOutputBytes, "links of edges");
-    SharedSpill<Link> raw(engine_.scratch), uv(engine_.scratch), boundary(engine_.scratch);
-    SharedSpill<SeamCandidate> seams(engine_.scratch);
-    SharedSpill<BorderEdge> borders(engine_.scratch);
-    std::vector<Output> outputs;
-    for (std::size_t i = 0; i < engine_.workers.count(); ++i) {
-      outputs.emplace_back(sinks.of_worker(i), raw, uv, boundary, seams, borders, keep_borders);
-    }
-    KeyedGroups<Record> groups(
-        engine_,
-        [&](std::size_t worker, std::span<Record> star) {
-          split_star(star, frames, outputs[worker]);
-        },
-        [&](std::uint32_t, Spill<Record> star) {
-          split_hot_star(std::move(star), frames, outputs[0]);
-        });
-    groups.process(std::move(buckets), &stage);
+  void pass(std::uint64_t faces) override { groups_.pass(faces); }
+  void settle() override { groups_.settle(); }
 
+  EdgeResults finish() override {
+    StageLog::Stage stage(engine_.log, "edges", 1);
+    groups_.process();
     EdgeResults results;
-    for (Output& output : outputs) {
+    for (Output& output : outputs_) {
       output.flush();
       results.raw_manifold = results.raw_manifold && output.raw_manifold;
       results.uv_manifold = results.uv_manifold && output.uv_manifold;
     }
-    results.raw_links = raw.finish();
-    results.uv_links = uv.finish();
-    results.boundary_links = boundary.finish();
-    results.seams = seams.finish();
-    results.borders = borders.finish();
+    results.raw_links = spills_.raw_links.finish();
+    results.uv_links = spills_.uv_links.finish();
+    results.boundary_links = spills_.boundary_links.finish();
+    results.seams = spills_.seams.finish();
+    results.borders = spills_.borders.finish();
     return results;
   }
 
@@ -255,11 +262,11 @@ class EdgeTableOf : public EdgeTable {
   /// Staging of one worker's five writers and two group buffers.
   static constexpr std::uint64_t kOutputBytes = 32 << 10;
 
-  static std::uint32_t bits_of_face(const Triangle& triangle, const SlotFrames& frames) {
+  std::uint32_t bits_of_face(const Triangle& triangle) const {
     const std::uint32_t slot =
         triangle.slot == kNone<SlotId> ? HalfEdge::kSlotMask : raw(triangle.slot);
     const bool sampled =
-        triangle.has_uv_triangle && !triangle.uv_far && frames.of(triangle.slot).readable;
+        triangle.has_uv_triangle && !triangle.uv_far && frames_.of(triangle.slot).readable;
     return slot | (triangle.at_welded_level() ? 0 : HalfEdge::kRawOnly) |
            (triangle.has_uv_triangle ? HalfEdge::kUvTriangle : 0) |
            (sampled ? 0 : HalfEdge::kUnsampled);
@@ -286,25 +293,16 @@ class EdgeTableOf : public EdgeTable {
     return record;
   }
 
-  typename KeyedGroups<Record>::Buckets end_distribution() {
-    for (auto& writer : writers_) writer.flush();
-    writers_.clear();
-    std::vector<Spill<Record>> buckets = partition_->finish();
-    partition_.reset();
-    memory_.release();
-    return {ranges_, std::move(buckets)};
-  }
-
   /// The half-edges with one lower vertex.
-  static void split_star(std::span<Record> star, const SlotFrames& frames, Output& output) {
+  void split_star(std::span<Record> star, Output& output) const {
     std::sort(star.begin(), star.end(), by_hi);
     for (std::size_t begin = 0, end = 0; begin < star.size(); begin = end) {
       while (end < star.size() && star[end].hi == star[begin].hi) ++end;
-      welded_edge(star.subspan(begin, end - begin), frames, output);
+      welded_edge(star.subspan(begin, end - begin), output);
     }
   }
 
-  static void welded_edge(std::span<Record> edge, const SlotFrames& frames, Output& output) {
+  void welded_edge(std::span<Record> edge, Output& output) const {
     if (kWelded<Record>) std::sort(edge.begin(), edge.end(), by_raw);
     RawEdges<Record> raw_edges(output);
     for (const Record& half_edge : edge) raw_edges.add(half_edge);
@@ -319,13 +317,13 @@ class EdgeTableOf : public EdgeTable {
       output.seams.push(seam_between(edge[0], edge[1]));
     }
     if (edge.size() > 2) std::sort(edge.begin(), edge.end(), by_uv);
-    UvEdges<Record> uv_edges(output, frames);
+    UvEdges<Record> uv_edges(output, frames_);
     for (const Record& half_edge : edge) uv_edges.add(half_edge);
     uv_edges.close();
   }
 
   /// A lower vertex with more half-edges than memory.
-  void split_hot_star(Spill<Record> star, const SlotFrames& frames, Output& output) {
+  void split_hot_star(Spill<Record> star, Output& output) {
     Spill<Record> sorted = sort_spill(engine_, std::move(star), by_hi);
     SpillReader<Record> reader(sorted, SpillReader<Record>::Mode::kConsume);
     std::vector<Record> edge;
@@ -338,7 +336,7 @@ class EdgeTableOf : public EdgeTable {
         more = reader.read(next);
       }
       if (!more || next.hi != edge[0].hi) {
-        welded_edge(edge, frames, output);
+        welded_edge(edge, output);
         continue;
       }
       SpillWriter<Record> rest(engine_.scratch);
@@ -347,12 +345,12 @@ class EdgeTableOf : public EdgeTable {
         rest.push(next);
         more = reader.read(next);
       }
-      large_edge(rest.finish(), frames, output);
+      large_edge(rest.finish(), output);
     }
   }
 
   /// An edge with more than kLargeEdgeFaces faces: no seam, but raw and uv edges as any other.
-  void large_edge(Spill<Record> edge, const SlotFrames& frames, Output& output) {
+  void large_edge(Spill<Record> edge, Output& output) {
     SpillWriter<Record> whole_faces(engine_.scratch);
     RawEdges<Record> raw_edges(output);
     stream_sorted(std::move(edge), by_raw, [&](const Record& half_edge) {
@@ -360,7 +358,7 @@ class EdgeTableOf : public EdgeTable {
       if (!half_edge.raw_only()) whole_faces.push(half_edge);
     });
     raw_edges.close();
-    UvEdges<Record> uv_edges(output, frames);
+    UvEdges<Record> uv_edges(output, frames_);
     stream_sorted(whole_faces.finish(), by_uv,
                   [&](const Record& half_edge) { uv_edges.add(half_edge); });
     uv_edges.close();
@@ -376,20 +374,23 @@ class EdgeTableOf : public EdgeTable {
   }
 
   const Engine& engine_;
-  KeyRanges ranges_;
-  Reservation memory_;
-  std::optional<Partition<Record>> partition_;
-  std::vector<typename Partition<Record>::Writer> writers_;
+  const SlotFrames& frames_;
+  Reservation outputs_memory_;
+  OutputSpills spills_;
+  std::vector<Output> outputs_;
+  std::vector<std::vector<Record>> half_edges_;  // of the triangles in hand, by worker
+  EarlyGroups<Record> groups_;
 };
 
 }  // namespace
 
-std::unique_ptr<EdgeTable> EdgeTable::make(const Engine& engine, bool welded, std::uint64_t faces,
-                                           std::uint64_t vertices, std::uint64_t memory_bytes) {
-  if (welded) {
-    return std::make_unique<EdgeTableOf<WeldedHalfEdge>>(engine, faces, vertices, memory_bytes);
+std::unique_ptr<EdgeTable> EdgeTable::make(const Engine& engine, const Plan& plan,
+                                           const LastUses& last_faces, const SlotFrames& frames,
+                                           GroupSinks& sinks) {
+  if (plan.welded) {
+    return std::make_unique<EdgeTableOf<WeldedHalfEdge>>(engine, plan, last_faces, frames, sinks);
   }
-  return std::make_unique<EdgeTableOf<HalfEdge>>(engine, faces, vertices, memory_bytes);
+  return std::make_unique<EdgeTableOf<HalfEdge>>(engine, plan, last_faces, frames, sinks);
 }
 
 }  // namespace atlasgauge

@@ -6,6 +6,7 @@
 
 #include "stream/engine/engine.hpp"
 #include "stream/engine/labels.hpp"
+#include "stream/engine/last_uses.hpp"
 #include "stream/groups.hpp"
 #include "stream/mesh/records.hpp"
 #include "stream/mesh/triangle.hpp"
@@ -23,22 +24,36 @@ struct EdgeResults {
   bool uv_manifold = true;    ///< no uv edge has more than two faces
 };
 
-/// The edge table. Every face emits three half-edges, distributed by their lower welded vertex; one
-/// grouping serves all three levels, since raw and uv edges nest inside welded ones. Faces on one
-/// edge are linked in a chain, not all with all.
+/// The edge table. Every face emits three half-edges, which are grouped by their lower welded
+/// vertex; one grouping serves all three levels, since raw and uv edges nest inside welded ones.
+/// Faces on one edge are linked in a chain, not all with all.
 class EdgeTable {
  public:
+  struct Plan {
+    bool welded;  ///< some vertices coincide
+    std::uint64_t faces;
+    std::uint64_t vertices;
+    std::uint64_t memory_bytes;  ///< may be taken until settle()
+    bool keep_borders;
+  };
+
   virtual ~EdgeTable() = default;
 
-  /// `welded`: some vertices coincide. `memory_bytes` is what distribution may take.
-  static std::unique_ptr<EdgeTable> make(const Engine& engine, bool welded, std::uint64_t faces,
-                                         std::uint64_t vertices, std::uint64_t memory_bytes);
+  /// Hands out RawEdge and UvEdge groups, beginning with the first add(). `last_faces` are of
+  /// welded vertices.
+  static std::unique_ptr<EdgeTable> make(const Engine& engine, const Plan& plan,
+                                         const LastUses& last_faces, const SlotFrames& frames,
+                                         GroupSinks& sinks);
 
-  /// Emits the half-edges of these triangles; one thread a worker.
-  virtual void add(std::size_t worker, std::span<const Triangle> triangles,
-                   const SlotFrames& frames) = 0;
-  /// After the last add(): groups them, and hands out RawEdge and UvEdge groups.
-  virtual EdgeResults group(const SlotFrames& frames, bool keep_borders, GroupSinks& sinks) = 0;
+  /// Emits the half-edges of these triangles, and groups some that are complete; one thread a
+  /// worker.
+  virtual void add(std::size_t worker, std::span<const Triangle> triangles) = 0;
+  /// The first `faces` faces have been added; one thread at a time.
+  virtual void pass(std::uint64_t faces) = 0;
+  /// After the last add(): groups what is in memory, and frees that.
+  virtual void settle() = 0;
+  /// After settle(): groups the rest.
+  virtual EdgeResults finish() = 0;
 };
 
 }  // namespace atlasgauge

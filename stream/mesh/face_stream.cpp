@@ -253,13 +253,14 @@ struct Item {
 
 }  // namespace
 
-void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld, std::uint64_t memory_bytes,
+void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld,
+                 SpillReader<FaceRecord>::Mode mode, std::uint64_t memory_bytes,
                  StageLog::Stage& stage, const FaceVisitor& visitor) {
   Reservation memory;
   const std::unique_ptr<CornerSource> corners =
       choose_source(engine, mesh, weld, memory_bytes, memory);
   std::vector<Item> items(engine.workers.count());
-  SpillReader<FaceRecord> faces(mesh.faces);
+  SpillReader<FaceRecord> faces(mesh.faces, mode);
   std::uint64_t next_face = 0;
   Workers::Pipeline pipeline;
   pipeline.produce = [&](std::size_t worker) {

@@ -7,6 +7,7 @@
 
 #include "io/mesh_batch.hpp"
 #include "stream/engine/engine.hpp"
+#include "stream/engine/spill.hpp"
 #include "stream/mesh/mesh_store.hpp"
 #include "stream/mesh/weld.hpp"
 
@@ -37,7 +38,9 @@ struct FaceVisitor {
 ///   3. where the faces' own index sequence, run through the tags of such a cache beforehand,
 ///   misses
 ///      too often, the corners are gathered by two sequential distributions instead.
-void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld, std::uint64_t memory_bytes,
+/// `mode` says whether the faces are consumed.
+void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld,
+                 SpillReader<FaceRecord>::Mode mode, std::uint64_t memory_bytes,
                  StageLog::Stage& stage, const FaceVisitor& visitor);
 
 }  // namespace atlasgauge

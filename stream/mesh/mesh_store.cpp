@@ -17,18 +17,21 @@ constexpr std::size_t kSmallestBlockBytes = 4 << 10;
 /// Puts batches into scratch and notes global facts on the way.
 class StoringSink : public MeshSink {
  public:
-  explicit StoringSink(Scratch& scratch)
+  StoringSink(Scratch& scratch, LastUses last_faces)
       : scratch_(scratch),
         positions_(scratch),
         texcoords_(scratch),
         faces_(scratch),
-        forward_(scratch) {}
+        forward_(scratch) {
+    store_.last_faces = std::move(last_faces);
+  }
 
   void add(const MeshBatch& batch) override {
     for (const Position& p : batch.positions) note(p);
     for (const TexCoord& t : batch.texcoords) note(t);
     positions_.append(batch.positions);
     texcoords_.append(batch.texcoords);
+    note_last_faces(batch.faces, faces_.size(), store_.last_faces);
     faces_.append(batch.faces);
     forward_.append(batch.forward);
   }
@@ -114,10 +117,20 @@ double BoundingBox::longest_side() const {
   return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
 }
 
+void note_last_faces(std::span<const FaceRecord> faces, std::uint64_t before,
+                     LastUses& last_faces) {
+  auto items = static_cast<std::uint32_t>(before);
+  for (const FaceRecord& face : faces) {
+    ++items;
+    for (const VertexId v : face.v) last_faces.note(raw(v), items);
+  }
+}
+
 MeshStore read_mesh(const Engine& engine, const std::string& path, Warnings& warnings,
                     ObjSummary& summary) {
   const std::unique_ptr<ByteSource> source = open_byte_source(path);
   StageLog::Stage stage(engine.log, "read", source->file_bytes());
+  LastUses last_faces(engine.budget);
   const std::size_t workers = engine.workers.count();
   const std::uint64_t writers_bytes = 4 * engine.block_bytes();
   const std::uint64_t free_bytes = engine.budget.free_bytes();
@@ -127,7 +140,7 @@ MeshStore read_mesh(const Engine& engine, const std::string& path, Warnings& war
       writers_bytes + workers * ObjReader::memory_bytes(block_bytes), "reading the model");
 
   ObjReader reader(*source, path, warnings, block_bytes);
-  StoringSink sink(engine.scratch);
+  StoringSink sink(engine.scratch, std::move(last_faces));
   std::vector<ObjBlock> blocks(workers);
   Workers::Pipeline pipeline;
   pipeline.produce = [&](std::size_t worker) { return reader.next(blocks[worker]); };

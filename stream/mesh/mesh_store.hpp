@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "io/mesh_batch.hpp"
 #include "io/obj/obj_reader.hpp"
 #include "io/warnings.hpp"
 #include "stream/engine/engine.hpp"
+#include "stream/engine/last_uses.hpp"
 #include "stream/engine/spill.hpp"
 
 namespace atlasgauge {
@@ -26,11 +28,16 @@ struct MeshStore {
   Spill<Position> positions;
   Spill<TexCoord> texcoords;
   Spill<FaceRecord> faces;
+  /// Of vertices by faces. Faces that were dropped count, so a use may seem later than it is.
+  LastUses last_faces;
   BoundingBox box;
   std::uint64_t nonfinite_positions = 0;
   std::uint64_t invalid_polygons = 0;
   bool uvs_in_unit_square = true;  ///< every finite texture coordinate lies in [0,1]
 };
+
+/// Notes the last uses of the vertices of `faces`, which `before` others precede.
+void note_last_faces(std::span<const FaceRecord> faces, std::uint64_t before, LastUses& last_faces);
 
 /// Parses an OBJ on all workers into scratch. Polygons that name no vertex of the file are gone
 /// from the faces. `summary` gets what the file says besides geometry.

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "stream/engine/keyed_groups.hpp"
+#include "stream/engine/early_groups.hpp"
 #include "stream/engine/labels.hpp"
 #include "stream/engine/sort_spill.hpp"
 
@@ -217,24 +217,6 @@ class HotStar {
   Spill<std::uint32_t> distinct_;  // neighbours, in order
 };
 
-KeyedGroups<StarCorner>::Buckets distribute_corners(const Engine& engine, Spill<FaceRecord>& faces,
-                                                    Spill<FaceFacts>& facts,
-                                                    std::uint64_t vertices) {
-  const auto push_corners = [&](auto push) {
-    SpillReader<FaceRecord> face_reader(faces);
-    SpillReader<FaceFacts> facts_reader(facts);
-    FaceRecord face{};
-    FaceFacts face_facts;
-    while (face_reader.read(face) && facts_reader.read(face_facts)) {
-      if (!face_facts.at_raw_level()) continue;
-      const std::uint32_t v[3] = {raw(face.v[0]), raw(face.v[1]), raw(face.v[2])};
-      for (int k = 0; k < 3; ++k) push(0, {v[k], v[(k + 1) % 3], v[(k + 2) % 3]});
-    }
-  };
-  return KeyedGroups<StarCorner>::distribute(engine, 3 * faces.size(), vertices,
-                                             "distributing corners", push_corners);
-}
-
 /// Hands out the stars of one worker, and counts the vertices on boundary edges as they pass.
 class StarOutput {
  public:
@@ -255,24 +237,78 @@ class StarOutput {
 
 }  // namespace
 
-std::uint64_t group_stars(const Engine& engine, Spill<FaceRecord>& faces, Spill<FaceFacts>& facts,
-                          std::uint64_t vertices, GroupSinks& sinks) {
-  StageLog::Stage stage(engine.log, "vertex stars", faces.size());
-  std::vector<StarOutput> outputs;
-  for (std::size_t i = 0; i < engine.workers.count(); ++i) outputs.emplace_back(sinks.of_worker(i));
-  std::vector<StarCounter> counters(engine.workers.count());
-  HotStar hot(engine);
-  KeyedGroups<StarCorner> groups(
-      engine,
-      [&](std::size_t worker, std::span<StarCorner> star) {
-        outputs[worker].push(counters[worker].count(star));
-      },
-      [&](std::uint32_t, Spill<StarCorner> star) { outputs[0].push(hot.count(std::move(star))); },
-      kLargestStar);
-  groups.process(distribute_corners(engine, faces, facts, vertices));
-  std::uint64_t boundary_vertices = 0;
-  for (StarOutput& output : outputs) boundary_vertices += output.finish();
-  return boundary_vertices;
+class StarTable::Impl {
+ public:
+  Impl(const Engine& engine, const Plan& plan, const LastUses& last_faces, GroupSinks& sinks)
+      : engine_(engine),
+        counters_(engine.workers.count()),
+        hot_(engine),
+        corners_(engine.workers.count()),
+        groups_(
+            engine,
+            {3 * plan.faces, static_cast<std::uint32_t>(plan.vertices), plan.memory_bytes,
+             "grouping corners"},
+            last_faces,
+            [this](std::size_t worker, std::span<StarCorner> star) {
+              outputs_[worker].push(counters_[worker].count(star));
+            },
+            [this](std::uint32_t, Spill<StarCorner> star) {
+              outputs_[0].push(hot_.count(std::move(star)));
+            },
+            kLargestStar) {
+    for (std::size_t i = 0; i < engine.workers.count(); ++i) {
+      outputs_.emplace_back(sinks.of_worker(i));
+    }
+  }
+
+  void add(std::size_t worker, std::span<const Triangle> triangles) {
+    std::vector<StarCorner>& corners = corners_[worker];
+    corners.clear();
+    for (const Triangle& triangle : triangles) {
+      if (!triangle.at_raw_level()) continue;
+      const std::uint32_t v[3] = {raw(triangle.v[0]), raw(triangle.v[1]), raw(triangle.v[2])};
+      for (int k = 0; k < 3; ++k) corners.push_back({v[k], v[(k + 1) % 3], v[(k + 2) % 3]});
+    }
+    groups_.add(worker, corners);
+    groups_.group_passed(worker);
+  }
+
+  void pass(std::uint64_t faces) { groups_.pass(faces); }
+  void settle() { groups_.settle(); }
+
+  std::uint64_t finish() {
+    StageLog::Stage stage(engine_.log, "vertex stars", 1);
+    groups_.process();
+    std::uint64_t boundary_vertices = 0;
+    for (StarOutput& output : outputs_) boundary_vertices += output.finish();
+    return boundary_vertices;
+  }
+
+ private:
+  const Engine& engine_;
+  std::vector<StarOutput> outputs_;
+  std::vector<StarCounter> counters_;
+  HotStar hot_;
+  std::vector<std::vector<StarCorner>> corners_;  // of the triangles in hand, by worker
+  EarlyGroups<StarCorner> groups_;
+};
+
+StarTable::StarTable(const Engine& engine, const Plan& plan, const LastUses& last_faces,
+                     GroupSinks& sinks)
+    : impl_(std::make_unique<Impl>(engine, plan, last_faces, sinks)) {}
+StarTable::~StarTable() = default;
+
+void StarTable::add(std::size_t worker, std::span<const Triangle> triangles) {
+  impl_->add(worker, triangles);
+}
+void StarTable::pass(std::uint64_t faces) {
+  impl_->pass(faces);
+}
+void StarTable::settle() {
+  impl_->settle();
+}
+std::uint64_t StarTable::finish() {
+  return impl_->finish();
 }
 
 }  // namespace atlasgauge

@@ -82,7 +82,8 @@ void shift_frames(const Engine& engine, MeshStore& mesh, Weld& weld, const Textu
       }
     }
   };
-  visit_faces(engine, mesh, weld, engine.budget.free_bytes() / 2, stage, visitor);
+  visit_faces(engine, mesh, weld, SpillReader<FaceRecord>::Mode::kKeep,
+              engine.budget.free_bytes() / 2, stage, visitor);
   for (std::size_t slot = 0; slot < frames.size(); ++slot) {
     for (std::size_t worker = 1; worker < workers; ++worker) {
       boxes[0][slot].merge(boxes[worker][slot]);
@@ -130,7 +131,8 @@ void visit_triangles(const Engine& engine, MeshStore& mesh, Weld& weld, const Te
     visitor.transform(worker, batch);
   };
   faces.commit = visitor.commit;
-  visit_faces(engine, mesh, weld, memory_bytes, stage, faces);
+  visit_faces(engine, mesh, weld, SpillReader<FaceRecord>::Mode::kConsume, memory_bytes, stage,
+              faces);
 }
 
 }  // namespace atlasgauge

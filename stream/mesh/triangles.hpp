@@ -29,7 +29,7 @@ struct TriangleVisitor {
   std::function<void(std::size_t worker)> commit;
 };
 
-/// Runs all faces through a visitor, in batches.
+/// Runs all faces through a visitor, in batches, and consumes them.
 void visit_triangles(const Engine& engine, MeshStore& mesh, Weld& weld, const TextureSlots& slots,
                      const SlotFrames& frames, std::uint64_t memory_bytes, StageLog::Stage& stage,
                      const TriangleVisitor& visitor);

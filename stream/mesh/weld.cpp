@@ -231,4 +231,17 @@ Weld weld_vertices(const Engine& engine, MeshStore& mesh) {
   return weld;
 }
 
+LastUses last_faces_of_welded(const Engine& engine, const LastUses& last_faces, const Weld& weld) {
+  if (!last_faces.knows_any()) return {};
+  LastUses of_welded(engine.budget);
+  SpillReader<VertexId> reader(weld.welded);
+  std::uint32_t v = 0;
+  for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
+    for (const VertexId welded : block) {
+      of_welded.note(raw(welded), last_faces.items_until_unused(v++));
+    }
+  }
+  return of_welded;
+}
+
 }  // namespace atlasgauge

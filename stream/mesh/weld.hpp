@@ -25,4 +25,7 @@ struct Weld {
 /// however long.
 Weld weld_vertices(const Engine& engine, MeshStore& mesh);
 
+/// The last uses of welded vertices: the latest of the vertices that coincide.
+LastUses last_faces_of_welded(const Engine& engine, const LastUses& last_faces, const Weld& weld);
+
 }  // namespace atlasgauge

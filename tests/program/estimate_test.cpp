@@ -35,7 +35,8 @@ double bytes_of(const std::string& text, const std::string& what) {
   return number * static_cast<double>(parse_bytes("1" + name));
 }
 
-TEST_P(EstimateCase, IsWithinAHalfOfWhatTheRunUses) {
+// In order, half-edges and corners hardly reach scratch, which no estimate may count on.
+TEST_P(EstimateCase, IsWithinAHalfOfWhatTheRunUsesOrTwiceInOrder) {
   const Case& model = GetParam();
   const TempDir dir;
   SiteOptions options;
@@ -58,8 +59,9 @@ TEST_P(EstimateCase, IsWithinAHalfOfWhatTheRunUses) {
   const ProgramResult run = run_program(ATLASGAUGE_PROGRAM, arguments);
   ASSERT_EQ(run.exit_code, 0) << run.err;
 
-  const auto expect_close = [](double estimated, double used) {
-    EXPECT_LT(estimated, 1.5 * used);
+  const double most = model.shuffled ? 1.5 : 2;
+  const auto expect_close = [most](double estimated, double used) {
+    EXPECT_LT(estimated, most * used);
     EXPECT_GT(estimated, used / 1.5);
   };
   expect_close(cost.at("scratch_bytes").get<double>(), bytes_of(run.err, "scratch alive at once"));

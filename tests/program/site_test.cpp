@@ -32,14 +32,15 @@ class MillionFacesTest : public testing::Test {
     delete dir_;
   }
 
-  static PipelineResult run(std::uint64_t engine_bytes, std::size_t block_bytes) {
+  static PipelineResult run(std::uint64_t engine_bytes, std::size_t block_bytes,
+                            const TempDir& dir = *dir_) {
     PipelineConfig config;
     config.engine_bytes = engine_bytes;
     config.block_bytes = block_bytes;
     config.resident_bytes = engine_bytes / 4;
     config.workers = 2;
     config.texture_size = ImageSize{8192, 8192};
-    return run_pipeline((dir_->path() / "site.obj").string(), config);
+    return run_pipeline((dir.path() / "site.obj").string(), config);
   }
 
   static TempDir* dir_;
@@ -63,6 +64,33 @@ TEST_F(MillionFacesTest, EveryStageThatHoldsFacesSpillsInFourMegabytes) {
     if (stage.name == "boundary") continue;  // a few thousand edges
     EXPECT_GT(stage.spilled_bytes + stage.read_bytes, 0U) << stage.name;
   }
+}
+
+/// What the stages that group half-edges and corners read back.
+std::uint64_t grouping_read_bytes(const PipelineResult& result) {
+  std::uint64_t bytes = 0;
+  for (const StageCost& stage : result.stages) {
+    if (stage.name == "edges" || stage.name == "vertex stars") bytes += stage.read_bytes;
+  }
+  return bytes;
+}
+
+TEST_F(MillionFacesTest, HalfEdgesInOrderStayInSixtyFourMegabytes) {
+  EXPECT_EQ(grouping_read_bytes(run(64 * kMiB, 64 << 10)), 0U);
+}
+
+TEST_F(MillionFacesTest, HalfEdgesInRandomOrderSpillInSixtyFourMegabytes) {
+  SiteOptions options;
+  options.faces = 1'000'000;
+  options.texture_size_texels = 8192;
+  options.image_format = ImageFormat::kNone;
+  options.shuffle_seed = 3;
+  const TempDir dir;
+  const Site shuffled(options);
+  write_site(shuffled, dir.path().string());
+  const PipelineResult result = run(64 * kMiB, 64 << 10, dir);
+  EXPECT_GT(grouping_read_bytes(result), 100 * shuffled.faces());
+  EXPECT_EQ(differences(result.report, site_answers(shuffled)), std::vector<std::string>{});
 }
 
 TEST_F(MillionFacesTest, NothingIsSpilledInFourGigabytes) {

@@ -76,7 +76,8 @@ void expect_joined(TestEngine& engine, const SmallMesh& small, std::uint64_t mem
     EXPECT_EQ(first[worker], committed);
     committed += std::exchange(count[worker], 0);
   };
-  visit_faces(engine, mesh, weld, memory_bytes, stage, visitor);
+  visit_faces(engine, mesh, weld, SpillReader<FaceRecord>::Mode::kKeep, memory_bytes, stage,
+              visitor);
   EXPECT_EQ(committed, small.faces.size());
   EXPECT_EQ(wrong, 0U);
 }
@@ -161,7 +162,9 @@ TEST(FaceStreamErrorTest, ErrorOfAVisitorIsThrown) {
   visitor.transform = [](std::size_t, std::uint64_t, std::span<const JoinedFace>) {
     throw std::runtime_error("bad face");
   };
-  EXPECT_THROW(visit_faces(engine, mesh, weld, 1 << 20, stage, visitor), std::runtime_error);
+  EXPECT_THROW(visit_faces(engine, mesh, weld, SpillReader<FaceRecord>::Mode::kKeep, 1 << 20, stage,
+                           visitor),
+               std::runtime_error);
 }
 
 }  // namespace

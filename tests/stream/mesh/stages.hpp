@@ -66,25 +66,33 @@ class Stages {
  public:
   Stages(TestEngine& engine, const SmallMesh& small, const TextureSlots& slots = one_image())
       : engine_(engine), mesh(small.store(engine)), weld(weld_vertices(engine, mesh)) {
+    mesh.last_faces = LastUses(engine_.budget);
+    note_last_faces(small.faces, 0, mesh.last_faces);
     frames = frame_slots(engine_, mesh, weld, slots);
     stream_triangles(slots);
   }
 
   /// The groups of edges; what they tell later stages is in `edges`.
   void run_edges() {
-    const auto table = EdgeTable::make(engine_, weld.found_any(), mesh.faces.size(),
-                                       mesh.positions.size(), engine_.budget.free_bytes() / 2);
-    std::vector<Triangle> all = triangles;
-    std::sort(all.begin(), all.end(),
-              [](const Triangle& a, const Triangle& b) { return raw(a.face) < raw(b.face); });
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      table->add(i % engine_.workers.count(), {&all[i], 1}, frames);
-    }
-    edges = table->group(frames, true, groups);
+    const EdgeTable::Plan plan{.welded = weld.found_any(),
+                               .faces = triangles.size(),
+                               .vertices = mesh.positions.size(),
+                               .memory_bytes = engine_.budget.free_bytes() / 4,
+                               .keep_borders = true};
+    LastUses of_welded;
+    if (plan.welded) of_welded = last_faces_of_welded(engine_, mesh.last_faces, weld);
+    const auto table =
+        EdgeTable::make(engine_, plan, plan.welded ? of_welded : mesh.last_faces, frames, groups);
+    add_all(*table);
+    edges = table->finish();
   }
 
   std::uint64_t run_stars() {
-    return group_stars(engine_, mesh.faces, facts, mesh.positions.size(), groups);
+    StarTable table(engine_,
+                    {triangles.size(), mesh.positions.size(), engine_.budget.free_bytes() / 4},
+                    mesh.last_faces, groups);
+    add_all(table);
+    return table.finish();
   }
 
   void run_components() {
@@ -115,6 +123,16 @@ class Stages {
   }
 
  private:
+  /// Face by face, each from another worker.
+  template <class Table>
+  void add_all(Table& table) {
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      table.add(i % engine_.workers.count(), {&triangles[i], 1});
+      table.pass(i + 1);
+    }
+    table.settle();
+  }
+
   TestEngine& engine_;
 
  public:
