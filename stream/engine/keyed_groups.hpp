@@ -119,7 +119,7 @@ class KeyedGroups {
   void group(std::size_t worker, std::size_t count, std::pair<std::uint32_t, std::uint32_t> keys,
              std::uint64_t memory_bytes, Load load) {
     Memory& memory = memory_[worker];
-    resize(memory.loaded, count);
+    memory.loaded.resize(count);
     load(std::span<Record>(memory.loaded));
     const std::uint64_t key_count = keys.second - keys.first;
     const bool counting = key_count <= 4 * std::uint64_t{count} + 64 &&

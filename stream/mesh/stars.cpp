@@ -75,8 +75,8 @@ class StarCounter {
   void sort_neighbours(std::span<const StarCorner> corners) {
     uses_.clear();
     for (std::uint32_t i = 0; i < corners.size(); ++i) {
-      uses_.emplace_back(corners[i].a, i);
-      uses_.emplace_back(corners[i].b, i);
+      uses_.push_back(std::uint64_t{corners[i].a} << 32 | i);
+      uses_.push_back(std::uint64_t{corners[i].b} << 32 | i);
     }
     std::sort(uses_.begin(), uses_.end());
   }
@@ -88,7 +88,10 @@ class StarCounter {
     fans_ = corners;
     neighbours_ = {};
     for (std::size_t i = 0; i < uses_.size(); ++i) {
-      if (neighbours_.add(uses_[i].first)) unite(uses_[i - 1].second, uses_[i].second);
+      const auto neighbour = static_cast<std::uint32_t>(uses_[i] >> 32);
+      if (neighbours_.add(neighbour)) {
+        unite(static_cast<std::uint32_t>(uses_[i - 1]), static_cast<std::uint32_t>(uses_[i]));
+      }
     }
     neighbours_.close();
   }
@@ -117,7 +120,8 @@ class StarCounter {
     return static_cast<std::uint64_t>(pairs_.end() - distinct);
   }
 
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> uses_, pairs_;
+  std::vector<std::uint64_t> uses_;  ///< neighbour and corner, in one number that sorts fast
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
   std::vector<std::uint32_t> parent_;
   std::size_t fans_ = 0;
   NeighbourCount neighbours_;
