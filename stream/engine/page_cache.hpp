@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -29,29 +30,44 @@ class PageTags {
   std::vector<std::uint32_t> tags_;
 };
 
-/// Pages of a table: a whole number of records that is also a whole number of I/O units. Pages end
+/// Pages of a table: a power of two of records that is also a whole number of I/O units. Pages end
 /// at block ends.
 template <class T>
 struct PageLayout {
-  static constexpr std::size_t kRecords = sizeof(T) >= 16 ? 512 : 2048;
+  /// The smallest page.
+  static constexpr std::uint32_t kRecords = sizeof(T) >= 16 ? 512 : 2048;
   static constexpr std::size_t kBytes = kRecords * sizeof(T);
   static_assert(kBytes % Scratch::kAlignment == 0);
 
-  explicit PageLayout(const Spill<T>& table)
-      : records_per_block(static_cast<std::uint32_t>(table.records_per_block())),
-        pages_per_block(static_cast<std::uint32_t>((records_per_block + kRecords - 1) / kRecords)) {
+  /// Larger pages, of which the memory still holds hundreds: for neighbours that are asked for one
+  /// after the other, fewer reads.
+  static std::uint32_t records_for_neighbours(std::uint64_t memory_bytes) {
+    constexpr std::uint64_t kLeastPages = 256;
+    constexpr std::size_t kLargestBytes = 128 << 10;
+    std::uint32_t records = kRecords;
+    while (2 * records * sizeof(T) <=
+           std::min<std::uint64_t>(kLargestBytes, memory_bytes / kLeastPages)) {
+      records *= 2;
+    }
+    return records;
   }
+
+  explicit PageLayout(const Spill<T>& table, std::uint32_t page_records = kRecords)
+      : records_per_block(static_cast<std::uint32_t>(table.records_per_block())),
+        shift(static_cast<unsigned>(std::countr_zero(page_records))),
+        pages_per_block((records_per_block + page_records - 1) >> shift) {}
 
   std::uint32_t page_of(std::uint32_t record) const {
     const std::uint32_t block = record / records_per_block;
-    return block * pages_per_block +
-           (record - block * records_per_block) / static_cast<std::uint32_t>(kRecords);
+    return block * pages_per_block + ((record - block * records_per_block) >> shift);
   }
   std::uint32_t in_page(std::uint32_t record) const {
-    return record % records_per_block % static_cast<std::uint32_t>(kRecords);
+    return record % records_per_block & ((1U << shift) - 1);
   }
+  std::size_t page_bytes() const { return sizeof(T) << shift; }
 
   std::uint32_t records_per_block;
+  unsigned shift;  ///< log2 of the records of a page
   std::uint32_t pages_per_block;
 };
 
@@ -61,11 +77,12 @@ struct PageLayout {
 template <class T>
 class PageCache {
  public:
-  PageCache(const Spill<T>& table, std::uint64_t memory_bytes)
+  PageCache(const Spill<T>& table, std::uint64_t memory_bytes,
+            std::uint32_t page_records = PageLayout<T>::kRecords)
       : table_(&table),
-        layout_(table),
-        tags_(memory_bytes / PageLayout<T>::kBytes),
-        memory_(tags_.sets() * PageLayout<T>::kBytes, AlignedBytes::Pages::kHuge),
+        layout_(table, page_records),
+        tags_(memory_bytes / layout_.page_bytes()),
+        memory_(tags_.sets() * layout_.page_bytes(), AlignedBytes::Pages::kHuge),
         pages_(tags_.sets(), nullptr) {}
 
   const T& at(std::uint32_t record) {
@@ -79,13 +96,13 @@ class PageCache {
   const T* load(std::uint32_t page, std::size_t set) {
     const Scratch& scratch = *table_->scratch();
     const std::uint32_t block = page / layout_.pages_per_block;
-    const std::size_t offset = (page % layout_.pages_per_block) * PageLayout<T>::kBytes;
+    const std::size_t offset = (page % layout_.pages_per_block) * layout_.page_bytes();
     if (const std::byte* bytes = scratch.resident(table_->block(block))) {
       return reinterpret_cast<const T*>(bytes + offset);
     }
-    std::byte* const memory = memory_.data() + set * PageLayout<T>::kBytes;
+    std::byte* const memory = memory_.data() + set * layout_.page_bytes();
     const std::size_t end =
-        std::min(offset + PageLayout<T>::kBytes, table_->records_in_block(block) * sizeof(T));
+        std::min(offset + layout_.page_bytes(), table_->records_in_block(block) * sizeof(T));
     scratch.read(table_->block(block), offset, memory, end - offset);
     return reinterpret_cast<const T*>(memory);
   }

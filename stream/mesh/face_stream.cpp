@@ -80,6 +80,13 @@ class CachedTables : public CornerSource {
     std::uint64_t positions, texcoords, welded;
     explicit Shares(std::uint64_t worker_bytes)
         : positions(worker_bytes / 8 * 5), texcoords(worker_bytes / 4), welded(worker_bytes / 8) {}
+
+    std::uint32_t position_records() const {
+      return PageLayout<Position>::records_for_neighbours(positions);
+    }
+    std::uint32_t texcoord_records() const {
+      return PageLayout<TexCoord>::records_for_neighbours(texcoords);
+    }
   };
 
   CachedTables(MeshStore& mesh, Weld& weld, std::size_t workers, std::uint64_t memory_bytes)
@@ -108,8 +115,10 @@ class CachedTables : public CornerSource {
  private:
   struct Caches {
     Caches(MeshStore& mesh, Weld& weld, const Shares& shares)
-        : positions(mesh.positions, shares.positions) {
-      if (!mesh.texcoords.empty()) texcoords.emplace(mesh.texcoords, shares.texcoords);
+        : positions(mesh.positions, shares.positions, shares.position_records()) {
+      if (!mesh.texcoords.empty()) {
+        texcoords.emplace(mesh.texcoords, shares.texcoords, shares.texcoord_records());
+      }
       if (weld.found_any()) welded.emplace(weld.welded, shares.welded);
     }
     PageCache<Position> positions;
@@ -199,21 +208,21 @@ class GatheredCorners : public CornerSource {
 /// Bytes that page caches of one worker's share would load for all faces.
 std::uint64_t cache_load_bytes(MeshStore& mesh, std::uint64_t worker_bytes) {
   const CachedTables::Shares shares(worker_bytes);
-  const PageLayout<Position> position_pages(mesh.positions);
-  const PageLayout<TexCoord> texcoord_pages(mesh.texcoords);
-  PageTags positions(shares.positions / PageLayout<Position>::kBytes);
-  PageTags texcoords(shares.texcoords / PageLayout<TexCoord>::kBytes);
+  const PageLayout<Position> position_pages(mesh.positions, shares.position_records());
+  const PageLayout<TexCoord> texcoord_pages(mesh.texcoords, shares.texcoord_records());
+  PageTags positions(shares.positions / position_pages.page_bytes());
+  PageTags texcoords(shares.texcoords / texcoord_pages.page_bytes());
   std::uint64_t loaded = 0;
   SpillReader<FaceRecord> reader(mesh.faces);
   for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
     for (const FaceRecord& face : block) {
       for (int k = 0; k < 3; ++k) {
         if (!positions.access(position_pages.page_of(raw(face.v[k])))) {
-          loaded += PageLayout<Position>::kBytes;
+          loaded += position_pages.page_bytes();
         }
         if (raw(face.t[k]) < mesh.texcoords.size() &&
             !texcoords.access(texcoord_pages.page_of(raw(face.t[k])))) {
-          loaded += PageLayout<TexCoord>::kBytes;
+          loaded += texcoord_pages.page_bytes();
         }
       }
     }

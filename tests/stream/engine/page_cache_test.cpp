@@ -51,6 +51,14 @@ TEST(PageLayoutTest, PagesEndAtBlockEnds) {
   EXPECT_EQ(layout.in_page(682), 0U);
 }
 
+TEST(PageLayoutTest, PagesForNeighboursAreLargeWhereThereIsRoomForHundreds) {
+  using Layout = PageLayout<Pebble>;
+  EXPECT_EQ(Layout::records_for_neighbours(0), 512U);
+  EXPECT_EQ(Layout::records_for_neighbours(256 * 2 * 12288 - 1), 512U);
+  EXPECT_EQ(Layout::records_for_neighbours(256 * 2 * 12288), 1024U);
+  EXPECT_EQ(Layout::records_for_neighbours(std::uint64_t{1} << 40), 4096U);
+}
+
 class PageCacheTest : public testing::TestWithParam<std::tuple<std::size_t, std::uint64_t>> {};
 INSTANTIATE_TEST_SUITE_P(BlocksAndMemory, PageCacheTest,
                          testing::Combine(testing::Values(4096, 12288, 16384, 65536),
@@ -61,15 +69,17 @@ TEST_P(PageCacheTest, FindsEveryRecordInAnyOrder) {
   for (const std::uint64_t resident : {0, 1 << 16, 1 << 20}) {
     TestEngine engine({.block_bytes = block_bytes, .resident_bytes = resident});
     const Spill<Pebble> table = spill_of(engine, pebbles(5000));
-    PageCache<Pebble> cache(table, memory_bytes);
-    std::mt19937 random(3);
-    std::uniform_int_distribution<std::uint32_t> any(0, 4999);
-    for (int i = 0; i < 2000; ++i) {
-      const std::uint32_t record = any(random);
-      ASSERT_EQ(cache.at(record).number, record);
-      ASSERT_EQ(cache.at(record).b, 3U * record);
+    for (const std::uint32_t page_records : {512, 2048}) {
+      PageCache<Pebble> cache(table, memory_bytes, page_records);
+      std::mt19937 random(3);
+      std::uniform_int_distribution<std::uint32_t> any(0, 4999);
+      for (int i = 0; i < 2000; ++i) {
+        const std::uint32_t record = any(random);
+        ASSERT_EQ(cache.at(record).number, record);
+        ASSERT_EQ(cache.at(record).b, 3U * record);
+      }
+      EXPECT_EQ(cache.at(4999).number, 4999U);
     }
-    EXPECT_EQ(cache.at(4999).number, 4999U);
   }
 }
 
