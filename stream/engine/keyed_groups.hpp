@@ -120,12 +120,12 @@ class KeyedGroups {
              std::uint64_t memory_bytes, Load load) {
     Memory& memory = memory_[worker];
     memory.loaded.resize(count);
-    load(std::span<Record>(memory.loaded));
+    load(memory.loaded.all());
     const std::uint64_t key_count = keys.second - keys.first;
     const bool counting = key_count <= 4 * std::uint64_t{count} + 64 &&
                           count * record_bytes() + 4 * key_count <= memory_bytes;
     counting ? counting_sort(memory, keys) : comparison_sort(memory);
-    call_groups(worker, counting ? memory.sorted : memory.loaded);
+    call_groups(worker, (counting ? memory.sorted : memory.loaded).all());
   }
 
   void release_memory() {

@@ -30,7 +30,7 @@ class RecordBuffer {
   T& operator[](std::size_t i) { return data()[i]; }
   T* begin() { return data(); }
   T* end() { return data() + size_; }
-  operator std::span<T>() { return {data(), size_}; }
+  std::span<T> all() { return {data(), size_}; }
 
  private:
   T* data() { return reinterpret_cast<T*>(memory_.data()); }
