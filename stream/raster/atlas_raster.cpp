@@ -33,7 +33,9 @@ std::int64_t tile_size(const Engine& engine, const SlotFrames& frames, const Ras
 
 /// The tiles of every worker, and what it writes through.
 std::uint64_t drawing_bytes(const Engine& engine, const SlotFrames& frames, std::int64_t side) {
-  const std::uint64_t tiles_bytes = worker_tiles_bytes(std::min(side, largest_side(frames)));
+  const std::int64_t largest = largest_side(frames);
+  const std::uint64_t tiles_bytes =
+      largest <= side ? pyramid_bytes(largest) : worker_tiles_bytes(side);
   return engine.workers.count() * (tiles_bytes + engine.block_bytes()) + engine.block_bytes();
 }
 
