@@ -223,7 +223,7 @@ TEST_P(RasterLawTest, BytesOfACrowdDoNotDependOnTiles) {
                     {{8, {2 * kMiB}},
                      {16, {kMiB}},
                      {64, {512 << 10, 64 * kMiB}},
-                     {512, {16 * kMiB}},
+                     {512, {24 * kMiB}},
                      {0, {kMiB}}});
 }
 
