@@ -32,9 +32,23 @@ std::int64_t tile_size(const Engine& engine, const SlotFrames& frames, const Ras
                           std::min(plan.largest_tile, largest_side(frames)));
 }
 
+/// Of the levels of large slots that fit a tile.
+std::int64_t largest_whole_side(const SlotFrames& frames, std::int64_t tile_side) {
+  std::int64_t side = 0;
+  for (const SlotFrame& frame : frames.all()) {
+    if (!frame.has_size) continue;
+    const MipLevels levels = levels_of(frame);
+    const std::uint32_t first = levels.first_within(tile_side);
+    if (first == 0 || first == levels.count()) continue;
+    side = std::max({side, levels.size(first).width, levels.size(first).height});
+  }
+  return side;
+}
+
 /// The tiles of every worker, and what it writes through.
 std::uint64_t drawing_bytes(const Engine& engine, const SlotFrames& frames, std::int64_t side) {
-  const std::uint64_t tiles_bytes = worker_tiles_bytes(std::min(side, largest_side(frames)));
+  const std::uint64_t tiles_bytes = pyramid_bytes(std::min(side, largest_side(frames))) +
+                                    pyramid_bytes(largest_whole_side(frames, side));
   return engine.workers.count() * (tiles_bytes + engine.block_bytes()) + engine.block_bytes();
 }
 

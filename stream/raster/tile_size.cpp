@@ -13,13 +13,17 @@ constexpr std::uint64_t kTileShare = 4;
 
 }  // namespace
 
-std::uint64_t worker_tiles_bytes(std::int64_t side) {
+std::uint64_t pyramid_bytes(std::int64_t side) {
   std::uint64_t bytes = TexelTile::memory_bytes(side, side);
   while (side > 1) {
     side = (side + 1) / 2;
     bytes += TexelTile::memory_bytes(side, side);
   }
-  return 2 * bytes;
+  return bytes;
+}
+
+std::uint64_t worker_tiles_bytes(std::int64_t side) {
+  return 2 * pyramid_bytes(side);
 }
 
 std::int64_t choose_tile_size(std::uint64_t free_bytes, std::size_t workers, std::int64_t most) {

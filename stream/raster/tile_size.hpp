@@ -9,6 +9,9 @@ namespace atlasgauge {
 /// long.
 inline constexpr std::int64_t kLargestTile = 512;
 
+/// What tiles of all levels of a square texture of so many texels a side need.
+std::uint64_t pyramid_bytes(std::int64_t side);
+
 /// What the tiles of one worker need: those of a region of so many texels a side at all its levels,
 /// and those of the levels of its slot that fit one tile.
 std::uint64_t worker_tiles_bytes(std::int64_t side);

@@ -223,7 +223,7 @@ TEST_P(RasterLawTest, BytesOfACrowdDoNotDependOnTiles) {
                     {{8, {2 * kMiB}},
                      {16, {kMiB}},
                      {64, {512 << 10, 64 * kMiB}},
-                     {512, {16 * kMiB}},
+                     {512, {24 * kMiB}},
                      {0, {kMiB}}});
 }
 
@@ -243,10 +243,10 @@ TEST_P(RasterLawTest, TilesAreDrawnByTheRasterThatWasNamed) {
   site.faces = 10'000;
   site.texture_size_texels = 1024;
   PipelineConfig config = varied(config_for(site));
-  config.tile_size = 128;
+  config.tile_size = 64;
   const PipelineResult result = run_pipeline(make(dir_, site), config);
-  EXPECT_EQ(result.raster.tile_size, 128);
-  EXPECT_GT(result.raster.tiles, 64U);  // of the largest level, and of others
+  EXPECT_EQ(result.raster.tile_size, 64);
+  EXPECT_GT(result.raster.tiles, 64U);  // squares of the largest level
   const RasterTally& drawn = result.raster.triangles;
   const bool is_osmesa = raster() == RasterChoice::kOsmesa;
   EXPECT_GE(is_osmesa ? drawn.osmesa : drawn.scalar, result.report.at("fn").get<std::uint64_t>());
