@@ -26,7 +26,9 @@ std::uint64_t count_edges(const PeerGround& ground, std::uint64_t memory_bytes,
   const Workers workers(1);
   StageLog log(scratch, workers);
   const Engine engine{budget, scratch, workers, log};
-  const auto fill = [&](auto push) { ground.for_each(push); };
+  const auto fill = [&](auto push) {
+    ground.for_each([&](const PeerHalfEdge& half_edge) { push(0, half_edge); });
+  };
   Groups::Buckets buckets =
       Groups::distribute(engine, ground.half_edges(), ground.vertices(), "half-edges", fill);
   EdgeCount edges;

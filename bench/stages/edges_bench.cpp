@@ -63,20 +63,37 @@ class EdgesJob : public Job {
 
   void prepare() override {
     results_ = {};
+    last_faces_.reset();
     engine_ =
         std::make_unique<BenchEngine>(plan_.room, 3 * kRecordBytes * grid_.faces(), plan_.threads);
     sinks_ = std::make_unique<CountingSinks>(plan_.threads);
+    note_last_faces();
   }
 
   void run() override {
     const Engine& engine = engine_->engine();
-    const auto table = EdgeTable::make(engine, plan_.welded, grid_.faces(), grid_.vertices(),
-                                       engine.budget.free_bytes() / 2);
-    engine.workers.for_each(source_.batches(), [&](std::size_t worker, std::size_t batch) {
-      source_.fill(static_cast<std::uint32_t>(batch), triangles_[worker]);
-      table->add(worker, triangles_[worker], frames_);
-    });
-    results_ = table->group(frames_, false, *sinks_);
+    const EdgeTable::Plan plan{.welded = plan_.welded,
+                               .faces = grid_.faces(),
+                               .vertices = grid_.vertices(),
+                               .memory_bytes = engine.budget.free_bytes() / 2,
+                               .keep_borders = false};
+    const auto table = EdgeTable::make(engine, plan, *last_faces_, frames_, *sinks_);
+    std::vector<std::uint32_t> batch_of(plan_.threads);
+    std::uint32_t next = 0;
+    std::uint64_t faces = 0;
+    Workers::Pipeline pipeline;
+    pipeline.produce = [&](std::size_t worker) {
+      batch_of[worker] = next;
+      return next++ < source_.batches();
+    };
+    pipeline.transform = [&](std::size_t worker) {
+      source_.fill(batch_of[worker], triangles_[worker]);
+      table->add(worker, triangles_[worker]);
+    };
+    pipeline.commit = [&](std::size_t worker) { table->pass(faces += triangles_[worker].size()); };
+    engine.workers.run(pipeline);
+    table->settle();
+    results_ = table->finish();
   }
 
   void check() override {
@@ -93,6 +110,19 @@ class EdgesJob : public Job {
   }
 
  private:
+  /// As the reader of a model does.
+  void note_last_faces() {
+    last_faces_ = std::make_unique<LastUses>(engine_->engine().budget);
+    std::uint32_t faces = 0;
+    for (std::uint32_t batch = 0; batch < source_.batches(); ++batch) {
+      source_.fill(batch, triangles_[0]);
+      for (const Triangle& triangle : triangles_[0]) {
+        ++faces;
+        for (const VertexId v : triangle.w) last_faces_->note(raw(v), faces);
+      }
+    }
+  }
+
   /// About what a half-edge takes, for the budget.
   static constexpr std::uint64_t kRecordBytes = 40;
 
@@ -103,6 +133,7 @@ class EdgesJob : public Job {
   std::vector<std::vector<Triangle>> triangles_;
   std::unique_ptr<BenchEngine> engine_;
   std::unique_ptr<CountingSinks> sinks_;
+  std::unique_ptr<LastUses> last_faces_;  ///< gives its memory back before the engine goes
   EdgeResults results_;
 };
 

@@ -140,12 +140,13 @@ class JoinJob : public Job {
     std::vector<std::uint64_t> counts(threads_);
     FaceVisitor visitor;
     visitor.transform = [&](std::size_t worker, std::uint64_t, std::span<const JoinedFace> faces) {
-      counts[worker] = faces.size();
+      counts[worker] += faces.size();
       for (const JoinedFace& face : faces) look(face);
     };
-    visitor.commit = [&](std::size_t worker) { joined_ += counts[worker]; };
+    visitor.commit = [&](std::size_t worker) { joined_ += std::exchange(counts[worker], 0); };
     Weld none;
-    visit_faces(engine, mesh_, none, engine.budget.free_bytes() / 8 * 7, stage, visitor);
+    visit_faces(engine, mesh_, none, SpillReader<FaceRecord>::Mode::kKeep,
+                engine.budget.free_bytes() / 8 * 7, stage, visitor);
   }
 
   Grid grid_;
