@@ -95,7 +95,8 @@ void Scratch::make_room_for_freed_blocks() {
 }
 
 void Scratch::free(BlockId block) noexcept {
-  if (block >= resident_blocks_ && queue_ != nullptr) queue_.load()->forget(block);
+  TransferQueue* const queue = queue_;
+  if (block >= resident_blocks_ && queue != nullptr) queue->forget(block);
   const std::lock_guard lock(mutex_);
   --live_blocks_;
   (block < resident_blocks_ ? free_resident_ : free_on_disk_).push_back(block);
@@ -136,26 +137,33 @@ void Scratch::leave_direct_io() const {
 }
 
 void Scratch::write(BlockId block, const std::byte* from, std::size_t bytes) {
-  if (queue_ != nullptr) queue_.load()->settle(block);
+  written_bytes_ += AlignedBytes::rounded_up(bytes);
+  if (TransferQueue* const queue = queue_) queue->settle(block);
   write_now(block, from, bytes);
 }
 
 void Scratch::read(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const {
-  if (queue_ != nullptr) queue_.load()->settle(block);
+  read_bytes_ += AlignedBytes::rounded_up(bytes);
+  if (TransferQueue* const queue = queue_) queue->settle(block);
   read_now(block, offset, to, bytes);
 }
 
 void Scratch::write_behind(BlockId block, BlockBytes& memory, std::size_t bytes) {
-  if (queue_ == nullptr) return write_now(block, memory.data(), bytes);
-  queue_.load()->write(block, memory, bytes);
+  TransferQueue* const queue = queue_;
+  if (queue == nullptr) return write(block, memory.data(), bytes);
+  written_bytes_ += AlignedBytes::rounded_up(bytes);
+  queue->write(block, memory, bytes);
 }
 
 void Scratch::read_ahead(BlockId block, std::size_t bytes) {
-  if (block >= resident_blocks_ && queue_ != nullptr) queue_.load()->read_ahead(block, bytes);
+  TransferQueue* const queue = queue_;
+  if (block >= resident_blocks_ && queue != nullptr) queue->read_ahead(block, bytes);
 }
 
 void Scratch::load(BlockId block, BlockBytes& memory, std::size_t bytes) {
-  if (queue_ != nullptr && queue_.load()->take(block, memory)) return;
+  read_bytes_ += AlignedBytes::rounded_up(bytes);
+  TransferQueue* const queue = queue_;
+  if (queue != nullptr && queue->take(block, memory)) return;
   read_now(block, 0, memory.data(), bytes);
 }
 
@@ -165,8 +173,6 @@ void Scratch::write_now(BlockId block, const std::byte* from, std::size_t bytes)
     return ::pwrite(file_.get(), from + done, size - done,
                     static_cast<off_t>(file_offset(block) + done));
   });
-  const std::lock_guard lock(mutex_);
-  written_bytes_ += size;
 }
 
 void Scratch::read_now(BlockId block, std::size_t offset, std::byte* to, std::size_t bytes) const {
@@ -175,8 +181,6 @@ void Scratch::read_now(BlockId block, std::size_t offset, std::byte* to, std::si
     return ::pread(file_.get(), to + done, size - done,
                    static_cast<off_t>(file_offset(block) + offset + done));
   });
-  const std::lock_guard lock(mutex_);
-  read_bytes_ += size;
 }
 
 std::uint64_t Scratch::room_bytes() const {
@@ -185,16 +189,6 @@ std::uint64_t Scratch::room_bytes() const {
   if (error) return ~std::uint64_t{0};
   const std::lock_guard lock(mutex_);
   return (std::uint64_t{resident_blocks_} + next_on_disk_) * block_bytes_ + space.available;
-}
-
-std::uint64_t Scratch::written_bytes() const {
-  const std::lock_guard lock(mutex_);
-  return written_bytes_;
-}
-
-std::uint64_t Scratch::read_bytes() const {
-  const std::lock_guard lock(mutex_);
-  return read_bytes_;
 }
 
 std::uint64_t Scratch::peak_bytes() const {

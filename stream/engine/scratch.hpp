@@ -74,8 +74,9 @@ class Scratch {
   /// its file system; the largest number if that cannot be told.
   std::uint64_t room_bytes() const;
 
-  std::uint64_t written_bytes() const;
-  std::uint64_t read_bytes() const;
+  /// Bytes handed in for writing, and asked for, so far.
+  std::uint64_t written_bytes() const { return written_bytes_; }
+  std::uint64_t read_bytes() const { return read_bytes_; }
   /// Largest number of bytes that blocks, resident or not, held at one time.
   std::uint64_t peak_bytes() const;
   /// Blocks handed out that did not fit in the pool, times block size.
@@ -109,8 +110,8 @@ class Scratch {
   std::uint64_t live_blocks_ = 0;
   std::uint64_t peak_blocks_ = 0;
   std::uint64_t spilled_blocks_ = 0;
-  std::uint64_t written_bytes_ = 0;
-  mutable std::uint64_t read_bytes_ = 0;
+  std::atomic<std::uint64_t> written_bytes_ = 0;
+  mutable std::atomic<std::uint64_t> read_bytes_ = 0;
 
   std::atomic<TransferQueue*> queue_{nullptr};  ///< once there is a file
   std::unique_ptr<TransferQueue> owned_queue_;

@@ -101,8 +101,7 @@ class LongSeamsTest : public testing::Test {
   }
 
   /// All edges along themselves, whatever their length.
-  std::map<std::uint32_t, SeamDistances> along(EngineOptions options) {
-    options.queued_blocks = 0;  // what is written is counted at once
+  std::map<std::uint32_t, SeamDistances> along(const EngineOptions& options) {
     TestEngine engine(options);
     const SlotFrames frames(textures_.frames());
     const SeamEdges edges(spill_of(engine, edges_), frames, true);
