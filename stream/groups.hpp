@@ -173,6 +173,8 @@ class GroupSinks {
 template <class Group>
 class GroupBuffer {
  public:
+  static constexpr std::uint64_t memory_bytes() { return kGroups * sizeof(Group); }
+
   explicit GroupBuffer(GroupSink& sink) : sink_(&sink) { groups_.reserve(kGroups); }
   void push(const Group& group) {
     groups_.push_back(group);

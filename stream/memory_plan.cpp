@@ -28,7 +28,7 @@ constexpr std::uint64_t kLargestBlockBytes = 1 * kMiB;
 /// labels of as many faces as an index can number.
 constexpr std::uint64_t kBlocksPerEngine = 512;
 /// Blocks on their way to and from disk, at most, and the share of the engine that they may take.
-constexpr std::uint64_t kQueuedBlocksPerWorker = 6;
+constexpr std::uint64_t kQueuedBlocksPerWorker = 8;
 constexpr std::uint64_t kMostQueuedBlocks = 64;
 constexpr std::uint64_t kQueueShare = 16;
 /// The least share of a thread when their number is not given.

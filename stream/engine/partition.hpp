@@ -18,21 +18,22 @@ namespace atlasgauge {
 /// Distributes records to buckets that spill, for many writers at once.
 ///
 /// Every writer belongs to one thread and stages some records per bucket, so that the lock of a
-/// bucket is taken once per kStaged records. The order of records in a bucket depends on the
+/// bucket is taken once for all of them. The order of records in a bucket depends on the
 /// threads; whoever needs an order sorts. Memory: one block a bucket, and the staging of each
 /// writer.
 template <class T>
 class Partition {
-  static constexpr std::size_t kStaged = std::max<std::size_t>(4, 4096 / sizeof(T));
-
  public:
   static std::uint64_t memory_bytes(std::size_t buckets, std::size_t writers,
                                     std::size_t block_bytes) {
-    return buckets * (block_bytes + writers * staging_bytes());
+    return buckets * (block_bytes + writers * staging_bytes(block_bytes));
   }
-  static std::size_t staging_bytes() { return kStaged * sizeof(T); }
+  /// What a writer stages for a bucket.
+  static std::size_t staging_bytes(std::size_t block_bytes) {
+    return staged_records(block_bytes) * sizeof(T);
+  }
 
-  Partition(Scratch& scratch, std::size_t buckets) {
+  Partition(Scratch& scratch, std::size_t buckets) : block_bytes_(scratch.block_bytes()) {
     for (std::size_t i = 0; i < buckets; ++i) buckets_.push_back(std::make_unique<Bucket>(scratch));
   }
 
@@ -49,12 +50,13 @@ class Partition {
    public:
     explicit Writer(Partition& partition)
         : partition_(&partition),
-          staged_(partition.bucket_count() * kStaged),
+          most_staged_(staged_records(partition.block_bytes_)),
+          staged_(partition.bucket_count() * most_staged_),
           counts_(partition.bucket_count(), 0) {}
 
     void push(std::size_t bucket, const T& record) {
-      staged_[bucket * kStaged + counts_[bucket]] = record;
-      if (++counts_[bucket] == kStaged) flush(bucket);
+      staged_[bucket * most_staged_ + counts_[bucket]] = record;
+      if (++counts_[bucket] == most_staged_) flush(bucket);
     }
 
     /// To be called before the partition is read.
@@ -67,10 +69,11 @@ class Partition {
       if (counts_[bucket] == 0) return;
       Bucket& target = *partition_->buckets_[bucket];
       const std::lock_guard lock(target.mutex);
-      target.writer.append({&staged_[bucket * kStaged], std::exchange(counts_[bucket], 0)});
+      target.writer.append({&staged_[bucket * most_staged_], std::exchange(counts_[bucket], 0)});
     }
 
     Partition* partition_;
+    std::size_t most_staged_;
     std::vector<T> staged_;
     std::vector<std::uint32_t> counts_;
   };
@@ -82,6 +85,13 @@ class Partition {
     SpillWriter<T> writer;
   };
 
+  /// More where blocks are large, for fewer locks; little beside the block in any case.
+  static std::size_t staged_records(std::size_t block_bytes) {
+    const std::size_t bytes = std::clamp<std::size_t>(block_bytes / 4, 1024, 4096);
+    return std::max<std::size_t>(4, bytes / sizeof(T));
+  }
+
+  const std::size_t block_bytes_;
   std::vector<std::unique_ptr<Bucket>> buckets_;
 };
 

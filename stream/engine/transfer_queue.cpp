@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/file/held_signals.hpp"
+
 namespace atlasgauge {
 
 TransferQueue::TransferQueue(std::size_t slots, BlockMemory& memory, Device device)
     : memory_(memory), device_(std::move(device)), slots_(std::max<std::size_t>(2, slots)) {
+  const HeldSignals inherited_by_threads;
   try {
     for (std::size_t i = 0; i < kThreads; ++i) threads_.emplace_back([this] { run(); });
   } catch (...) {
@@ -42,7 +45,7 @@ void TransferQueue::read_ahead(BlockId block, std::size_t bytes) {
   const Lock lock(mutex_);
   if (find(block) != nullptr) return;
   Slot* slot = free_slot(slots_.size() / 2, slots_.size());
-  if (slot == nullptr) slot = oldest(State::kRead);
+  if (slot == nullptr) slot = stale_read();
   if (slot != nullptr) enqueue(*slot, block, bytes);
 }
 
@@ -56,6 +59,10 @@ bool TransferQueue::take(BlockId block, BlockBytes& memory) {
   });
   if (slot == nullptr) return false;
   if (slot->state == State::kRead) std::swap(slot->memory, memory);
+  if (slot->state == State::kFailed) {
+    slot->state = State::kFree;
+    std::rethrow_exception(std::exchange(slot->error, nullptr));
+  }
   return std::exchange(slot->state, State::kFree) == State::kRead;
 }
 
@@ -114,6 +121,11 @@ TransferQueue::Slot* TransferQueue::oldest(State state) {
   return oldest;
 }
 
+TransferQueue::Slot* TransferQueue::stale_read() {
+  Slot* const slot = oldest(State::kRead);
+  return slot != nullptr && slot->turn + 8 * slots_.size() < next_turn_ ? slot : nullptr;
+}
+
 void TransferQueue::enqueue(Slot& slot, BlockId block, std::size_t bytes) {
   slot.state = State::kWaiting;
   slot.forgotten = false;
@@ -149,9 +161,13 @@ void TransferQueue::transfer(Slot& slot, Lock& lock) {
     error = std::current_exception();
   }
   lock.lock();
-  const bool keep = !is_write(slot) && !error && !slot.forgotten;
-  slot.state = keep ? State::kRead : State::kFree;
-  if (is_write(slot) && error) error_ = error;
+  if (is_write(slot) || slot.forgotten) {
+    slot.state = State::kFree;
+    if (is_write(slot) && error) error_ = error;
+    return;
+  }
+  slot.state = error ? State::kFailed : State::kRead;
+  slot.error = std::move(error);
 }
 
 }  // namespace atlasgauge

@@ -21,9 +21,9 @@ namespace atlasgauge {
 /// is overtake each other: nothing is read while a write of it is under way, nor written before an
 /// earlier write of it has ended (a block may be freed, and handed out again, before that).
 ///
-/// A failed write is thrown at whoever calls next. A failed read ahead is forgotten: the caller
-/// reads for itself and finds the same.
-/// Thread-safe, where every block has one owner at a time.
+/// A failed write is thrown at whoever calls next, a failed read at who takes the block.
+/// Thread-safe, where every block has one owner at a time. Its threads take no signals, so that
+/// these end the program where its main thread lets them.
 class TransferQueue {
  public:
   using BlockId = std::uint32_t;
@@ -40,7 +40,8 @@ class TransferQueue {
 
   /// Takes over the bytes in `memory`, which is other memory of the same size afterwards.
   void write(BlockId block, BlockBytes& memory, std::size_t bytes);
-  /// Begins to read the block, if there is room for it.
+  /// Begins to read the block, if there is room for it. Blocks read long ago, which nobody took,
+  /// make room.
   void read_ahead(BlockId block, std::size_t bytes);
   /// Whether the block was read ahead: `memory` then holds it. If not, it may be read now.
   bool take(BlockId block, BlockBytes& memory);
@@ -50,7 +51,7 @@ class TransferQueue {
   void forget(BlockId block) noexcept;
 
  private:
-  enum class State { kFree, kWaiting, kUnderWay, kRead };
+  enum class State { kFree, kWaiting, kUnderWay, kRead, kFailed };
   struct Slot {
     State state = State::kFree;
     bool forgotten = false;
@@ -58,6 +59,7 @@ class TransferQueue {
     std::size_t bytes = 0;
     std::uint64_t turn = 0;
     BlockBytes memory;
+    std::exception_ptr error;
   };
   using Lock = std::unique_lock<std::mutex>;
 
@@ -66,6 +68,7 @@ class TransferQueue {
   Slot* find(BlockId block);
   Slot* free_slot(std::size_t first, std::size_t end);
   Slot* oldest(State state);
+  Slot* stale_read();
   void settle(BlockId block, Lock& lock);
   void enqueue(Slot& slot, BlockId block, std::size_t bytes);
   void run();

@@ -54,6 +54,13 @@ struct OutputSpills {
 
 /// The part of one worker.
 struct Output {
+  static std::uint64_t memory_bytes(std::size_t block_bytes) {
+    return 3 * Partition<Link>::staging_bytes(block_bytes) +
+           Partition<SeamCandidate>::staging_bytes(block_bytes) +
+           Partition<BorderEdge>::staging_bytes(block_bytes) +
+           GroupBuffer<RawEdge>::memory_bytes() + GroupBuffer<UvEdge>::memory_bytes();
+  }
+
   Output(GroupSink& sink, OutputSpills& spills, bool with_borders)
       : raw_edges(sink),
         uv_edges(sink),
@@ -204,7 +211,9 @@ class EdgeTableOf : public EdgeTable {
       : engine_(engine),
         frames_(frames),
         outputs_memory_(engine.budget.reserve(
-            5 * engine.block_bytes() + engine.workers.count() * kOutputBytes, "links of edges")),
+            5 * engine.block_bytes() +
+                engine.workers.count() * Output::memory_bytes(engine.block_bytes()),
+            "links of edges")),
         spills_(engine.scratch),
         half_edges_(engine.workers.count()),
         groups_(
@@ -259,9 +268,6 @@ class EdgeTableOf : public EdgeTable {
   }
 
  private:
-  /// Staging of one worker's five writers and two group buffers.
-  static constexpr std::uint64_t kOutputBytes = 32 << 10;
-
   std::uint32_t bits_of_face(const Triangle& triangle) const {
     const std::uint32_t slot =
         triangle.slot == kNone<SlotId> ? HalfEdge::kSlotMask : raw(triangle.slot);

@@ -57,7 +57,8 @@ PipelineResult run_pipeline(const std::string& model, const PipelineConfig& conf
     };
   }
   const MeshFacts facts = stream_model(engine, model, options, warnings, resolve, measures);
-  return {measures.finish(facts).to_json(), log.stages(), facts.raster, budget.peak_bytes()};
+  return {measures.finish(facts).to_json(), log.stages(), facts.raster,
+          budget.peak_bytes() - kQueuedBlocks * config.block_bytes};
 }
 
 }  // namespace atlasgauge

@@ -74,9 +74,9 @@ TEST(PartitionTest, EmptyBucketsAreEmptySpills) {
 }
 
 TEST(PartitionTest, MemoryIsABlockABucketAndTheStaging) {
-  const std::uint64_t staging = Partition<std::uint32_t>::staging_bytes();
-  EXPECT_EQ(staging, 4096U);
-  EXPECT_EQ(Partition<std::uint32_t>::memory_bytes(3, 2, 4096), 3 * (4096 + 2 * staging));
+  using Numbers = Partition<std::uint32_t>;
+  EXPECT_EQ(Numbers::memory_bytes(3, 2, 4096), 3 * (4096U + 2 * 1024));
+  EXPECT_EQ(Numbers::memory_bytes(3, 2, 1 << 20), 3 * ((1U << 20) + 2 * 4096));
 }
 
 TEST(SharedSpillTest, GathersWhatAllThreadsPush) {

@@ -29,7 +29,10 @@ class FakeDisk {
             },
             [this](std::uint32_t block, std::byte* to, std::size_t) {
               wait();
-              if (fails) throw std::runtime_error("no such sector");
+              if (fails) {
+                ++failures;
+                throw std::runtime_error("no such sector");
+              }
               const std::lock_guard lock(mutex_);
               const std::vector<std::byte>& bytes = blocks_.at(block);
               std::memcpy(to, bytes.data(), bytes.size());
@@ -44,7 +47,7 @@ class FakeDisk {
   }
 
   std::atomic<bool> fails{false};
-  std::atomic<int> writes{0}, reads{0};
+  std::atomic<int> writes{0}, reads{0}, failures{0};
 
  private:
   void wait() {
@@ -142,15 +145,21 @@ TEST_F(TransferQueueTest, AFreedBlockIsNotTakenAsItWas) {
   EXPECT_EQ(take(7), -1);
 }
 
-TEST_F(TransferQueueTest, WhatNobodyTakesMakesRoom) {
-  for (std::uint32_t block = 0; block < 10; ++block) write(block, static_cast<int>(block));
-  for (std::uint32_t block = 0; block < 10; ++block) {
+TEST_F(TransferQueueTest, WhatNobodyTakesMakesRoomInTheEnd) {
+  for (std::uint32_t block = 0; block < 3; ++block) {
+    write(block, 1);
     queue_.settle(block);
     queue_.read_ahead(block, kBlock);
     wait_for_reads(static_cast<int>(block) + 1);
   }
-  EXPECT_EQ(take(9), 9);
-  EXPECT_EQ(take(0), -1);
+  write(9, 42);
+  queue_.settle(9);
+  queue_.read_ahead(9, kBlock);  // no room yet
+  EXPECT_EQ(take(9), -1);
+  for (int i = 0; i < 60; ++i) write(8, 1);
+  queue_.read_ahead(9, kBlock);
+  wait_for_reads(4);
+  EXPECT_EQ(take(9), 42);
 }
 
 TEST_F(TransferQueueTest, AFailedWriteIsThrownAtTheNextCaller) {
@@ -160,12 +169,27 @@ TEST_F(TransferQueueTest, AFailedWriteIsThrownAtTheNextCaller) {
   EXPECT_THROW(write(8, 1), std::runtime_error);
 }
 
-TEST_F(TransferQueueTest, AFailedReadAheadLeavesTheReadToTheCaller) {
+TEST_F(TransferQueueTest, AFailedReadAheadIsThrownAtWhoTakesTheBlock) {
   write(7, 1);
   queue_.settle(7);
   disk_.fails = true;
   queue_.read_ahead(7, kBlock);
+  while (disk_.failures == 0) std::this_thread::yield();
+  EXPECT_THROW(take(7), std::runtime_error);
+  disk_.fails = false;
   EXPECT_EQ(take(7), -1);
+}
+
+TEST_F(TransferQueueTest, AFailedReadAheadThatNobodyWantsHarmsNobody) {
+  write(7, 1);
+  queue_.settle(7);
+  disk_.fails = true;
+  queue_.read_ahead(7, kBlock);
+  queue_.forget(7);
+  disk_.fails = false;
+  write(7, 2);
+  queue_.settle(7);
+  EXPECT_EQ(disk_.first_byte(7), 2);
 }
 
 TEST_F(TransferQueueTest, ManyOwnersOfManyBlocksDoNotMeet) {
