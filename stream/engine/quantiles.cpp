@@ -234,7 +234,8 @@ class Selection {
 SampleSet SampleSet::up_to(const Engine& engine, double cutoff, const OnCut& on_cut) const {
   const std::size_t workers = engine.workers.count();
   const Reservation memory = engine.budget.reserve(
-      workers * (engine.block_bytes() + Partition<Sample>::staging_bytes(engine.block_bytes())) + engine.block_bytes(),
+      workers * (engine.block_bytes() + Partition<Sample>::staging_bytes(engine.block_bytes())) +
+          engine.block_bytes(),
       "samples up to a cutoff");
   SampleStore kept(engine.scratch);
   std::vector<SampleStore::Writer> writers(workers, SampleStore::Writer(kept));

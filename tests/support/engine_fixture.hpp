@@ -27,9 +27,9 @@ class TestEngine {
   explicit TestEngine(const EngineOptions& options = {})
       : budget(options.budget_bytes - options.resident_bytes),
         scratch_budget(options.resident_bytes + options.queued_blocks * options.block_bytes),
-        scratch({options.directory, options.block_bytes, options.resident_bytes,
-                 options.queued_blocks},
-                scratch_budget),
+        scratch(
+            {options.directory, options.block_bytes, options.resident_bytes, options.queued_blocks},
+            scratch_budget),
         workers(options.workers),
         log(scratch, workers),
         engine{budget, scratch, workers, log} {}
