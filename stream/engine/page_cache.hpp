@@ -45,7 +45,7 @@ struct PageLayout {
     constexpr std::uint64_t kLeastPages = 256;
     constexpr std::size_t kLargestBytes = 128 << 10;
     std::uint32_t records = kRecords;
-    while (2 * records * sizeof(T) <=
+    while (sizeof(T) * records * 2 <=
            std::min<std::uint64_t>(kLargestBytes, memory_bytes / kLeastPages)) {
       records *= 2;
     }
