@@ -24,7 +24,10 @@ struct Less {
   }
 };
 
+/// Its logs would go to the working directory.
 void use_folder(const std::string& folder) {
+  ::setenv("STXXLLOGFILE", (folder + "/stxxl.log").c_str(), 1);
+  ::setenv("STXXLERRLOGFILE", (folder + "/stxxl.errlog").c_str(), 1);
   stxxl::disk_config disk(folder + "/stxxl.tmp", 0, "syscall autogrow unlink");
   disk.direct = stxxl::disk_config::DIRECT_TRY;
   stxxl::config::get_instance()->add_disk(disk);
