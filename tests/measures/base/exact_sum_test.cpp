@@ -148,7 +148,9 @@ TEST(ExactSumTest, AgreesWithExactArithmetic) {
 }
 
 TEST(ExactSumTest, ManyTermsOfOneSizeDoNotOverflowTheWindow) {
-  for (const double term : {0x1.fffffffffffffp31, -0x1.fffffffffffffp31, 0x1p32, -0x1p0}) {
+  // 2^33 is as far up in its window as a term can be.
+  for (const double term : {0x1.fffffffffffffp31, -0x1.fffffffffffffp31, 0x1p32, -0x1p0,
+                            0x1.fffffffffffffp33, -0x1.fffffffffffffp33}) {
     EXPECT_EQ(sum_of(Terms(5000, term)).value(), 5000 * term);
   }
 }

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -21,6 +23,7 @@ class FakeDisk {
  public:
   TransferQueue::Device device() {
     return {[this](std::uint32_t block, const std::byte* from, std::size_t bytes) {
+              const OneWrite only(*this, block);
               wait();
               if (fails) throw std::runtime_error("disk full");
               const std::lock_guard lock(mutex_);
@@ -46,10 +49,36 @@ class FakeDisk {
     return static_cast<int>(blocks_.at(block).at(0));
   }
 
+  /// Writes that began while another of the same block was under way.
+  int overlaps() {
+    const std::lock_guard lock(mutex_);
+    return overlaps_;
+  }
+
   std::atomic<bool> fails{false};
   std::atomic<int> writes{0}, reads{0}, failures{0};
+  std::atomic<int> writes_begun{0};
 
  private:
+  class OneWrite {
+   public:
+    OneWrite(FakeDisk& disk, std::uint32_t block) : disk_(disk), block_(block) {
+      const std::lock_guard lock(disk_.mutex_);
+      if (!disk_.in_writing_.insert(block).second) ++disk_.overlaps_;
+      ++disk_.writes_begun;
+    }
+    ~OneWrite() {
+      const std::lock_guard lock(disk_.mutex_);
+      disk_.in_writing_.erase(block_);
+    }
+    OneWrite(const OneWrite&) = delete;
+    OneWrite& operator=(const OneWrite&) = delete;
+
+   private:
+    FakeDisk& disk_;
+    std::uint32_t block_;
+  };
+
   void wait() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !stopped_; });
@@ -63,6 +92,8 @@ class FakeDisk {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool stopped_ = false;
+  std::set<std::uint32_t> in_writing_;
+  int overlaps_ = 0;
   std::map<std::uint32_t, std::vector<std::byte>> blocks_;
 };
 
@@ -133,6 +164,23 @@ TEST_F(TransferQueueTest, AFreedBlockIsNotWrittenOverByItsFormerOwner) {
     queue_.settle(7);
     ASSERT_EQ(disk_.first_byte(7), 2);
   }
+}
+
+TEST_F(TransferQueueTest, ABlockIsNotWrittenTwiceAtATime) {
+  disk_.stop();
+  write(7, 1);
+  while (disk_.writes_begun == 0) std::this_thread::yield();
+  queue_.forget(7);
+  std::jthread next_owner([&] { write(7, 2); });
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
+  while (disk_.writes_begun < 2 && std::chrono::steady_clock::now() < patience) {
+    std::this_thread::yield();
+  }
+  disk_.go();
+  next_owner.join();
+  queue_.settle(7);
+  EXPECT_EQ(disk_.overlaps(), 0);
+  EXPECT_EQ(disk_.first_byte(7), 2);
 }
 
 TEST_F(TransferQueueTest, AFreedBlockIsNotTakenAsItWas) {
