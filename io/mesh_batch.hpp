@@ -53,6 +53,7 @@ struct MeshBatch {
   std::span<const TexCoord> texcoords{};
   std::span<const FaceRecord> faces{};
   std::span<const ForwardPolygon> forward{};
+  std::uint64_t invalid_polygons = 0;  ///< left out of `faces`, beside those of `forward`
 };
 
 /// Where readers put what they read.

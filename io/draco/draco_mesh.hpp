@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/mesh_batch.hpp"
+#include "io/model/mesh_part.hpp"
+
+namespace atlasgauge {
+
+/// What can be known of a Draco stream without decoding it.
+struct DracoHeader {
+  bool is_mesh = false;  ///< else a point cloud
+  bool is_edgebreaker = false;
+  std::uint8_t major_version = 0, minor_version = 0;
+  PartCounts counts;
+  /// Peak of decoding it, as measured (see draco_mesh.cpp), the stream itself not included.
+  std::uint64_t decoding_bytes = 0;
+};
+
+/// From the first bytes of a stream (256 are enough for every version). `path` is for messages.
+/// Throws Error(kInput) for what is no Draco stream, for one cut short, of an unknown version, or
+/// with counts that `stream_bytes` cannot hold.
+DracoHeader read_draco_header(std::string_view begin, std::uint64_t stream_bytes,
+                              const std::string& path);
+
+/// Which attributes of a stream to take: by their unique ids, as KHR_draco_mesh_compression names
+/// them, or the first of their kind.
+struct DracoAttributes {
+  std::optional<std::uint32_t> position_id;
+  std::optional<std::uint32_t> texcoord_id;
+  bool by_kind = true;  ///< for ids that are not given: the first of the kind, else none
+};
+
+/// A decoded mesh.
+class DracoMesh {
+ public:
+  /// Decodes all of a stream. Throws Error(kInput), also for a point cloud, and where positions or
+  /// texture coordinates have other than 3 and 2 components.
+  static DracoMesh decode(std::string_view stream, const DracoAttributes& attributes,
+                          const std::string& path);
+  DracoMesh(DracoMesh&&) noexcept;
+  DracoMesh& operator=(DracoMesh&&) noexcept;
+  ~DracoMesh();
+
+  /// Distinct values of the attribute, in the order of the stream; indices of faces are into these.
+  std::uint64_t positions() const;
+  std::uint64_t texcoords() const;  ///< 0 without any
+  std::uint64_t faces() const;
+
+  /// As decoded, dequantized to float by Draco itself.
+  Position position(std::uint64_t i) const;
+  /// As stored: the caller knows where v = 0 is.
+  TexCoord texcoord(std::uint64_t i) const;
+  /// Indices of values, by corner; `t` is kNone without texture coordinates. The material is an
+  /// index in material_names(), else kNone.
+  FaceRecord face(std::uint64_t i) const;
+
+  /// Bits and steps of what the stream quantizes, in the units of the stream.
+  std::optional<Quantization> quantization() const;
+  /// Of the attribute named "material" that Draco's own OBJ encoder writes, by value; else empty.
+  std::vector<std::string> material_names() const;
+
+ private:
+  class Decoded;
+  explicit DracoMesh(std::unique_ptr<Decoded> decoded);
+  std::unique_ptr<Decoded> decoded_;
+};
+
+}  // namespace atlasgauge
