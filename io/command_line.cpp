@@ -63,7 +63,9 @@ struct Texts {
 };
 
 void describe(CLI::App& app, Options& options, Texts& texts) {
-  app.add_option("MODEL", options.model, "the model: .obj, .obj.gz or .obj.zst")->required();
+  app.add_option("MODEL", options.models,
+                 "the model: .obj, .obj.gz or .obj.zst; several files or patterns are one model")
+      ->required();
   app.add_option("--json", texts.json, "write the report to FILE; - is standard output")
       ->type_name("FILE");
   app.add_option("--charts", options.charts_path,
@@ -145,7 +147,7 @@ CommandLine parse_command_line(std::vector<std::string> arguments) {
   Texts texts;
   CLI::App app(
       "Measures a textured mesh that need not fit in memory.\n"
-      "Usage: atlasgauge [measure] MODEL [OPTIONS]");
+      "Usage: atlasgauge [measure] MODEL... [OPTIONS]");
   describe(app, line.options, texts);
   std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them last first
   try {

@@ -16,7 +16,7 @@ enum class RasterChoice { kScalar, kOsmesa };
 
 /// What the user asked for.
 struct Options {
-  std::string model;
+  std::vector<std::string> models;         ///< inputs and glob patterns: one model
   std::optional<std::string> json_path;    ///< "-" is stdout
   std::optional<std::string> charts_path;  ///< of a known table format
   std::optional<std::string> maps_dir;

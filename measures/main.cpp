@@ -9,6 +9,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,6 +17,7 @@
 
 #include "io/command_line.hpp"
 #include "io/error.hpp"
+#include "io/file/input_paths.hpp"
 #include "io/file/output_file.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/image/image_reader.hpp"
@@ -80,7 +82,8 @@ void write_text(const Options& options, const std::string& text) {
 void estimate(const Options& options) {
   if (options.json_path) check_writable(*options.json_path);
   const MemoryPlan plan = plan_for(options);
-  const ModelGuess guess = guess_model(options.model, read_image_header);
+  const std::vector<std::string> inputs = expand_input_paths(options.models);
+  const ModelGuess guess = guess_model(inputs, {.probe = read_image_header});
   const CostEstimate cost = estimate_cost(guess, plan);
   if (options.json_path) write_file(*options.json_path, json_of(guess, cost, plan).dump(1) + "\n");
   write_text(options, text_of(guess, cost, plan));
@@ -105,7 +108,8 @@ void measure(const Options& options) {
   if (options.json_path) check_writable(*options.json_path);
   if (options.maps_dir) make_output_folder(*options.maps_dir);
   const MemoryPlan plan = plan_for(options);
-  require_resources_for(options.model, plan, options.tmp_dir, read_image_header);
+  const std::vector<std::string> inputs = expand_input_paths(options.models);
+  require_resources_for(inputs, plan, options.tmp_dir, {.probe = read_image_header});
   const Workers workers(plan.workers);
   MemoryBudget budget(plan.engine_bytes);
   Scratch scratch({options.tmp_dir, plan.block_bytes, plan.resident_bytes, plan.queued_blocks},
@@ -121,9 +125,8 @@ void measure(const Options& options) {
       options.strict);
 
   MeasureSet measures(workers.count());
-  const auto resolve = [&](const ObjSummary& obj) {
-    return resolve_textures(options.model, obj.mtllib_lines, obj.material_names,
-                            options.texture_size, read_image_header, warnings);
+  const auto resolve = [&](std::span<const InputMaterials> materials) {
+    return resolve_textures(materials, options.texture_size, read_image_header, warnings);
   };
   StreamOptions wanted;
   wanted.raster = raster_for(options);
@@ -140,10 +143,10 @@ void measure(const Options& options) {
   wanted.texmetro_seams = options.texmetro_seams;
   wanted.spare_bytes = plan.spare_bytes;
   if (options.maps_dir) wanted.distortion_of = distortion_of_any;
-  MeshFacts facts = stream_model(engine, options.model, wanted, warnings, resolve, measures);
+  MeshFacts facts = stream_model(engine, inputs, wanted, warnings, resolve, measures);
   const Report report = measures.finish(facts);
   if (options.maps_dir && facts.textures.unit_slot) {
-    warnings.add("maps", options.model, 0,
+    warnings.add("maps", inputs.front(), 0,
                  "there is no texture to map, as the model names no image; give a size with -t");
   } else if (options.maps_dir) {
     write_maps(engine, std::move(facts.atlas), facts.textures, scaling_unit(report),

@@ -96,15 +96,29 @@ void add_image(const TextureSlot& slot, ModelGuess& guess) {
   guess.decoding_bytes = std::max(guess.decoding_bytes, static_cast<double>(need.memory_bytes));
 }
 
-/// Of all images that the libraries name, used or not.
-void add_images(const std::string& path, const std::vector<std::string>& mtllib_lines,
-                const ImageProbe& probe, ModelGuess& guess) {
+/// Of all images that the materials name, used or not.
+void add_images(std::span<const InputMaterials> inputs, const ImageProbe& probe,
+                ModelGuess& guess) {
   Warnings unheard([](const std::string&) {});
-  const TextureSlots textures =
-      resolve_textures(path, mtllib_lines, {}, std::nullopt, probe, unheard);
+  const TextureSlots textures = resolve_textures(inputs, std::nullopt, probe, unheard);
   for (const TextureSlot& slot : textures.slots) {
     if (slot.readable) add_image(slot, guess);
   }
+}
+
+/// One more input of the model; what a cache loads for a face is the mean of all faces.
+void add_input(const ModelGuess& input, ModelGuess& all) {
+  const double faces = all.faces + input.faces;
+  if (faces > 0) {
+    all.loaded_bytes_per_face =
+        (all.loaded_bytes_per_face * all.faces + input.loaded_bytes_per_face * input.faces) / faces;
+  }
+  all.positions += input.positions;
+  all.texcoords += input.texcoords;
+  all.faces = faces;
+  all.text_bytes += input.text_bytes;
+  all.is_whole = all.is_whole && input.is_whole;
+  all.is_reliable = all.is_reliable && input.is_reliable;
 }
 
 /// Scales what the beginning of a text held up to the whole.
@@ -223,24 +237,26 @@ std::uint64_t labels_that_fit(const MemoryPlan& plan) {
   return label_capacity(plan.engine_bytes - plan.resident_bytes, plan.block_bytes);
 }
 
-/// Whether the densest text of a file's size would fit.
-bool fits_by_size(const std::string& path, const MemoryPlan& plan, const std::string& directory) {
-  const std::unique_ptr<ByteSource> source = open_byte_source(path);
-  const double text_bytes =
-      static_cast<double>(source->file_bytes()) * (source->is_plain() ? 1 : kMostTextPerFileByte);
+/// Whether the densest texts of the files' sizes would fit.
+bool fits_by_size(std::span<const std::string> inputs, const MemoryPlan& plan,
+                  const std::string& directory) {
+  double text_bytes = 0;
+  for (const std::string& path : inputs) {
+    const std::unique_ptr<ByteSource> source = open_byte_source(path);
+    text_bytes +=
+        static_cast<double>(source->file_bytes()) * (source->is_plain() ? 1 : kMostTextPerFileByte);
+  }
   const double nodes = std::min(static_cast<double>(kMaxElements), text_bytes / kLeastBytesPerFace);
   if (nodes > static_cast<double>(labels_that_fit(plan))) return false;
   const std::optional<std::uint64_t> free_bytes = free_space(directory);
   return !free_bytes || text_bytes * kMostScratchPerTextByte <= static_cast<double>(*free_bytes);
 }
 
-}  // namespace
-
-ModelGuess guess_model(const std::string& path, const ImageProbe& probe) {
+InputMaterials guess_obj(const std::string& path, ModelGuess& all) {
   ModelGuess guess;
   double sampled_faces = 0;
   double loaded_bytes = 0;
-  const ObjSampling sampling = sample_obj(path, [&](double weight, const MeshBatch& batch) {
+  ObjSampling sampling = sample_obj(path, [&](double weight, const MeshBatch& batch) {
     guess.positions += weight * static_cast<double>(batch.positions.size());
     guess.texcoords += weight * static_cast<double>(batch.texcoords.size());
     guess.faces += weight * static_cast<double>(batch.faces.size());
@@ -255,7 +271,35 @@ ModelGuess guess_model(const std::string& path, const ImageProbe& probe) {
     extrapolate(guess, sampling.sampled_bytes);
   }
   if (sampled_faces > 0) guess.loaded_bytes_per_face = loaded_bytes / sampled_faces;
-  add_images(path, sampling.mtllib_lines, probe, guess);
+  add_input(guess, all);
+  return {path, ObjMaterials{std::move(sampling.mtllib_lines), {}}};
+}
+
+InputMaterials guess_parts(const std::string& path, PartReader& parts, ModelGuess& all) {
+  ModelGuess guess;
+  guess.is_whole = true;
+  while (const std::unique_ptr<MeshPart> part = parts.next()) {
+    const PartCounts counts = part->counts();
+    guess.positions += static_cast<double>(counts.positions);
+    guess.texcoords += static_cast<double>(counts.texcoords);
+    guess.faces += static_cast<double>(counts.faces);
+  }
+  add_input(guess, all);
+  return {path, parts.materials()};
+}
+
+}  // namespace
+
+ModelGuess guess_model(std::span<const std::string> inputs, const GuessSources& sources) {
+  Warnings unheard([](const std::string&) {});
+  ModelGuess guess;
+  guess.is_whole = true;
+  std::vector<InputMaterials> materials;
+  for (const std::string& path : inputs) {
+    const std::unique_ptr<PartReader> parts = sources.open_parts(path, unheard);
+    materials.push_back(parts ? guess_parts(path, *parts, guess) : guess_obj(path, guess));
+  }
+  add_images(materials, sources.probe, guess);
   return guess;
 }
 
@@ -300,12 +344,19 @@ void require_resources(const ModelGuess& guess, const CostEstimate& cost, const 
                           format_bytes(cost.scratch_file_bytes), format_bytes(*free_bytes)));
 }
 
-void require_resources_for(const std::string& path, const MemoryPlan& plan,
-                           const std::string& directory, const ImageProbe& probe) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return;
-  if (fits_by_size(path, plan, directory)) return;
-  const ModelGuess guess = guess_model(path, probe);
+void require_resources_for(std::span<const std::string> inputs, const MemoryPlan& plan,
+                           const std::string& directory, const GuessSources& sources) {
+  Warnings unheard([](const std::string&) {});
+  const auto is_regular = [](const std::string& path) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error);
+  };
+  const auto is_obj = [&](const std::string& path) {
+    return sources.open_parts(path, unheard) == nullptr;
+  };
+  if (!std::ranges::all_of(inputs, is_regular)) return;
+  if (std::ranges::all_of(inputs, is_obj) && fits_by_size(inputs, plan, directory)) return;
+  const ModelGuess guess = guess_model(inputs, sources);
   require_resources(guess, estimate_cost(guess, plan), plan, directory);
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "io/texture/texture_slots.hpp"
 #include "stream/memory_plan.hpp"
+#include "stream/mesh/read_model.hpp"
 
 namespace atlasgauge {
 
@@ -38,8 +40,15 @@ struct CostEstimate {
   double wall_seconds = 0;
 };
 
-/// Reads at most 64 MiB of the model's text, its material libraries, and the headers of its images.
-ModelGuess guess_model(const std::string& path, const ImageProbe& probe);
+/// What a guess may ask of the inputs.
+struct GuessSources {
+  ImageProbe probe;
+  OpenParts open_parts = open_no_parts;
+};
+
+/// Reads at most 64 MiB of each OBJ's text, the headers of the parts of other inputs, material
+/// libraries, and the headers of images.
+ModelGuess guess_model(std::span<const std::string> inputs, const GuessSources& sources);
 
 CostEstimate estimate_cost(const ModelGuess& guess, const MemoryPlan& plan);
 
@@ -48,8 +57,8 @@ CostEstimate estimate_cost(const ModelGuess& guess, const MemoryPlan& plan);
 void require_resources(const ModelGuess& guess, const CostEstimate& cost, const MemoryPlan& plan,
                        const std::string& directory);
 
-/// The same before a run, at no cost where the size of the file alone shows that all is well.
-void require_resources_for(const std::string& path, const MemoryPlan& plan,
-                           const std::string& directory, const ImageProbe& probe);
+/// The same before a run, at no cost where the sizes of OBJ files alone show that all is well.
+void require_resources_for(std::span<const std::string> inputs, const MemoryPlan& plan,
+                           const std::string& directory, const GuessSources& sources);
 
 }  // namespace atlasgauge

@@ -69,6 +69,11 @@ struct TextureSeams {
   double discrepancy;  ///< mean of D(e) by length
 };
 
+/// A boundary edge at which two parts of a model should meet, but do not (stream/mesh/cracks.hpp).
+struct CrackEdge {
+  double length_3d;  ///< model units
+};
+
 /// The corners at one vertex, at the raw level.
 struct VertexStar {
   std::uint64_t corners;
@@ -146,6 +151,7 @@ class GroupSink {
   virtual void accept(std::span<const UvEdge> edges) = 0;
   virtual void accept(std::span<const SeamEdge> edges) = 0;
   virtual void accept(std::span<const VertexStar> stars) = 0;
+  virtual void accept(std::span<const CrackEdge> edges) = 0;
   virtual void accept(std::span<const Component> components) = 0;
   virtual void accept(std::span<const Chart> charts) = 0;
   virtual void accept(std::span<const TextureLevel> levels) = 0;

@@ -1,5 +1,7 @@
 #include "stream/pipeline.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -8,6 +10,7 @@
 
 #include "stream/mesh/charts.hpp"
 #include "stream/mesh/components.hpp"
+#include "stream/mesh/cracks.hpp"
 #include "stream/mesh/edges.hpp"
 #include "stream/mesh/stars.hpp"
 #include "stream/mesh/triangles.hpp"
@@ -64,6 +67,12 @@ void append_and_clear(SpillWriter<T>& writer, std::vector<T>& records) {
   records.clear();
 }
 
+/// Parts that lie on grids of their own can come apart.
+bool may_have_cracks(const std::vector<PartStart>& parts) {
+  const auto is_quantized = [](const PartStart& part) { return part.position_step > 0; };
+  return parts.size() > 1 && std::ranges::any_of(parts, is_quantized);
+}
+
 /// The tables get more than half of the memory: the less they spill. Half-edges take three times as
 /// much as corners.
 void make_tables(const Engine& engine, const StreamOptions& options, MeshStore& mesh,
@@ -77,7 +86,8 @@ void make_tables(const Engine& engine, const StreamOptions& options, MeshStore& 
                        .faces = mesh.faces.size(),
                        .vertices = mesh.positions.size(),
                        .memory_bytes = free_bytes / 8 * 3,
-                       .keep_borders = static_cast<bool>(options.on_chart)};
+                       .keep_borders = static_cast<bool>(options.on_chart),
+                       .keep_open = may_have_cracks(mesh.parts)};
   results.edges =
       EdgeTable::make(engine, plan, plan.welded ? of_welded : last_faces, frames, sinks);
   results.stars = std::make_unique<StarTable>(
@@ -207,28 +217,34 @@ std::map<std::string, Distribution> select_quantiles(
   return distributions;
 }
 
+std::string name_of(std::span<const std::string> inputs) {
+  const std::string first = std::filesystem::path(inputs.front()).filename().string();
+  return inputs.size() == 1 ? first : fmt::format("{} and {} more", first, inputs.size() - 1);
+}
+
 std::uint64_t memory_bytes(const TextureSlots& textures) {
   return textures.memory_bytes() + SlotFrames::memory_bytes(textures.slots.size());
 }
 
 }  // namespace
 
-MeshFacts stream_model(const Engine& engine, const std::string& path, const StreamOptions& options,
-                       Warnings& warnings, const ResolveTextures& resolve_textures,
-                       GroupSinks& sinks) {
-  ObjSummary summary;
-  MeshStore mesh = read_mesh(engine, path, warnings, summary);
+MeshFacts stream_model(const Engine& engine, std::span<const std::string> inputs,
+                       const StreamOptions& options, Warnings& warnings,
+                       const ResolveTextures& resolve_textures, GroupSinks& sinks) {
+  ReadModel read = read_model(engine, inputs, options.open_parts, warnings);
+  MeshStore mesh = std::move(read.mesh);
   MeshFacts facts;
-  facts.name = std::filesystem::path(path).filename().string();
+  facts.name = name_of(inputs);
   facts.faces = mesh.faces.size();
   facts.positions = mesh.positions.size();
   facts.invalid_polygons = mesh.invalid_polygons;
   facts.box = mesh.box;
-  facts.textures = resolve_textures(summary);
-  summary = {};
+  facts.textures = resolve_textures(read.materials);
+  facts.quantizations = std::move(read.quantizations);
+  read = {};
   const Reservation textures_memory =
       engine.budget.reserve(memory_bytes(facts.textures), "a model with so many textures");
-  const SeamPlan seam_plan = plan_seams(path, options);
+  const SeamPlan seam_plan = plan_seams(inputs.front(), options);
   require_room_for_seams(engine, facts.textures, seam_plan.decode);
 
   Weld weld = weld_vertices(engine, mesh);
@@ -247,6 +263,7 @@ MeshFacts stream_model(const Engine& engine, const std::string& path, const Stre
   const std::uint64_t boundary_vertices = triangles.stars->finish();
   triangles.stars.reset();
 
+  find_cracks(engine, std::move(edges.open), facts.vertices, mesh.parts, sinks);
   stream_components(engine, edges, triangles.facts, sinks);
   facts.boundary_components = stream_boundary(engine, edges, facts.positions, boundary_vertices);
   ChartStage charts = stream_charts(engine, options, edges, triangles, frames, sinks);

@@ -3,16 +3,19 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "io/image/image_reader.hpp"
-#include "io/obj/obj_reader.hpp"
 #include "io/texture/texture_slots.hpp"
 #include "io/warnings.hpp"
 #include "stream/engine/engine.hpp"
 #include "stream/engine/quantiles.hpp"
 #include "stream/groups.hpp"
 #include "stream/mesh/mesh_store.hpp"
+#include "stream/mesh/read_model.hpp"
 #include "stream/raster/atlas_maps.hpp"
 #include "stream/raster/atlas_raster.hpp"
 #include "stream/seams/seam_sampling.hpp"
@@ -21,7 +24,7 @@ namespace atlasgauge {
 
 /// Global truths about a model that no group carries.
 struct MeshFacts {
-  std::string name;  ///< file name, without its folder
+  std::string name;  ///< file name, without its folder; of several inputs, the first and how many
   std::uint64_t faces = 0;
   std::uint64_t positions = 0;
   std::uint64_t duplicate_positions = 0;  ///< positions minus distinct positions
@@ -37,11 +40,12 @@ struct MeshFacts {
   Spill<Position> vertices;           ///< by VertexId
   Spill<TextureSeams> texture_seams;  ///< by slot; of those that have any
   SeamWork seams;
-  bool texmetro_seams = false;  ///< seams were sampled as TexMetro does, too
+  bool texmetro_seams = false;                   ///< seams were sampled as TexMetro does, too
+  std::vector<InputQuantization> quantizations;  ///< of the inputs that quantize anything
 };
 
-/// Finds the slots of a model from what its OBJ says.
-using ResolveTextures = std::function<TextureSlots(const ObjSummary&)>;
+/// Finds the slots of a model from what its inputs say.
+using ResolveTextures = std::function<TextureSlots(std::span<const InputMaterials>)>;
 
 /// What is wanted besides the report.
 struct StreamOptions {
@@ -50,6 +54,7 @@ struct StreamOptions {
   /// For maps: the quasi-conformal distortion of a face, 0 where it has none. If not empty, the
   /// facts keep what maps are drawn from.
   std::function<double(const Triangle&)> distortion_of;
+  OpenParts open_parts = open_no_parts;
   OpenImage open_image = atlasgauge::open_image;
   /// Memory within the limit of the process that the engine leaves to decoders of images.
   std::uint64_t spare_bytes = 0;
@@ -60,11 +65,11 @@ struct StreamOptions {
 /// The flow of DESIGN section 3: streams a model through all stages, each of which hands its groups
 /// to the sinks.
 ///
-///   read -> weld -> UV shift -> triangles -> edges -> vertex stars
+///   read -> weld -> UV shift -> triangles -> edges -> vertex stars -> cracks
 ///        -> labels: components, boundary, charts -> raster (needs chart numbers) -> seams
 ///        -> percentiles (the cutoff of s_f needs the occupancy)
-MeshFacts stream_model(const Engine& engine, const std::string& path, const StreamOptions& options,
-                       Warnings& warnings, const ResolveTextures& resolve_textures,
-                       GroupSinks& sinks);
+MeshFacts stream_model(const Engine& engine, std::span<const std::string> inputs,
+                       const StreamOptions& options, Warnings& warnings,
+                       const ResolveTextures& resolve_textures, GroupSinks& sinks);
 
 }  // namespace atlasgauge

@@ -59,6 +59,7 @@ class CountingSinks : public GroupSinks {
     void accept(std::span<const VertexStar>) override {}
     void accept(std::span<const Component>) override {}
     void accept(std::span<const Chart>) override {}
+    void accept(std::span<const CrackEdge>) override {}
     void accept(std::span<const TextureLevel>) override {}
     void sample(std::size_t, std::span<const Triangle>, std::vector<Sample>&) override {}
     void sample(std::size_t, std::span<const Chart>, std::vector<Sample>&) override {}

@@ -14,7 +14,7 @@
 #include "bench/stages/job.hpp"
 #include "bench/temp_folder.hpp"
 #include "io/obj/obj_reader.hpp"
-#include "stream/mesh/mesh_store.hpp"
+#include "stream/mesh/read_model.hpp"
 
 namespace {
 
@@ -106,8 +106,7 @@ class StageJob : public Job {
     engine_ = std::make_unique<BenchEngine>(room_, grid_.text.size(), threads_);
   }
   void run() override {
-    ObjSummary summary;
-    mesh_ = read_mesh(engine_->engine(), path_, warnings_, summary);
+    mesh_ = read_model(engine_->engine(), {&path_, 1}, open_no_parts, warnings_).mesh;
   }
   void check() override {
     ObjTotals totals;

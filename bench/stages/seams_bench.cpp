@@ -108,8 +108,8 @@ class SeamsJob : public Job {
   void run() override {
     SeamPlan plan;
     plan.decode.model = "none";
-    plan.decode.open_image = [this](const std::string& path) {
-      const auto texture = static_cast<std::uint32_t>(std::stoul(path));
+    plan.decode.open_image = [this](const ImageSource& image) {
+      const auto texture = static_cast<std::uint32_t>(std::stoul(image.path));
       return std::make_unique<ColourRows>(size_of(scene_), scene_.colour(texture));
     };
     results_ = sample_seams(engine_->engine(), std::move(edges_), slots_, frames_, plan, warnings_,

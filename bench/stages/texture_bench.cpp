@@ -27,8 +27,9 @@ TextureSlots slots_of(const Pictures& pictures) {
   TextureSlots slots;
   slots.has_images = true;
   for (const std::string& path : pictures.paths) {
-    const ImageHeader header = read_image_header(path);
-    slots.slots.push_back({path, path, header.size, true, header.kind, header.decoder_bytes});
+    const ImageHeader header = read_image_header({.path = path});
+    slots.slots.push_back(
+        {path, {.path = path}, header.size, true, header.kind, header.decoder_bytes});
     slots.of_material.push_back(SlotId{static_cast<std::uint32_t>(slots.slots.size() - 1)});
   }
   return slots;

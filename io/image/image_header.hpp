@@ -2,7 +2,8 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
+
+#include "io/model/image_source.hpp"
 
 namespace atlasgauge {
 
@@ -34,6 +35,6 @@ struct ImageHeader {
 };
 
 /// Reads the header of an image; throws Error(kInput) if it cannot be read.
-using ImageProbe = std::function<ImageHeader(const std::string& path)>;
+using ImageProbe = std::function<ImageHeader(const ImageSource& source)>;
 
 }  // namespace atlasgauge

@@ -7,6 +7,7 @@
 
 #include "io/error.hpp"
 #include "io/file/module.hpp"
+#include "io/image/image_file.hpp"
 #include "io/image/image_module.hpp"
 
 namespace atlasgauge {
@@ -39,11 +40,13 @@ void close(void* image) {
 
 class ModuleRows final : public ImageRows {
  public:
-  explicit ModuleRows(std::string path) : path_(std::move(path)), image_(nullptr, close) {
+  explicit ModuleRows(const ImageSource& source)
+      : path_(source.path), file_(source), image_(nullptr, close) {
     static const auto open = function_of_module<OpenImageFunction>(kOpenImageSymbol);
     ErrorText error{};
-    image_.reset(open(path_.c_str(), &header_, error.data(), error.size()));
+    image_.reset(open(file_.path().c_str(), &header_, error.data(), error.size()));
     if (!image_) fail(path_, error);
+    header_.decoder_bytes += file_.copied_bytes();
   }
 
   const ImageHeader& header() const override { return header_; }
@@ -56,23 +59,28 @@ class ModuleRows final : public ImageRows {
 
  private:
   std::string path_;
+  ImageFile file_;
   ImageHeader header_;
   std::unique_ptr<void, void (*)(void*)> image_;
 };
 
 }  // namespace
 
-ImageHeader read_image_header(const std::string& path) {
+ImageHeader read_image_header(const ImageSource& source) {
   static const auto read_header =
       function_of_module<ReadImageHeaderFunction>(kReadImageHeaderSymbol);
+  const ImageFile file(source);
   ImageHeader header;
   ErrorText error{};
-  if (!read_header(path.c_str(), &header, error.data(), error.size())) fail(path, error);
+  if (!read_header(file.path().c_str(), &header, error.data(), error.size())) {
+    fail(source.path, error);
+  }
+  header.decoder_bytes += file.copied_bytes();
   return header;
 }
 
-std::unique_ptr<ImageRows> open_image(const std::string& path) {
-  return std::make_unique<ModuleRows>(path);
+std::unique_ptr<ImageRows> open_image(const ImageSource& source) {
+  return std::make_unique<ModuleRows>(source);
 }
 
 }  // namespace atlasgauge

@@ -13,7 +13,7 @@ namespace atlasgauge {
 /// The header of an image, through OpenImageIO, which is loaded on the first call: it costs 130 MB
 /// resident and 0.2 s, so models without images never pay for it.
 /// Throws Error(kInput) if the image cannot be read, Error(kInternal) if the module is missing.
-ImageHeader read_image_header(const std::string& path);
+ImageHeader read_image_header(const ImageSource& source);
 
 /// The texels of an image, from the top row down: red, green and blue of the header's kind, rows
 /// without padding. Colours are as stored: alpha is left away, grey is in all three.
@@ -26,8 +26,8 @@ class ImageRows {
 };
 
 /// Opens an image; throws Error(kInput). Different images may be read by different threads.
-using OpenImage = std::function<std::unique_ptr<ImageRows>(const std::string& path)>;
+using OpenImage = std::function<std::unique_ptr<ImageRows>(const ImageSource& source)>;
 
-std::unique_ptr<ImageRows> open_image(const std::string& path);
+std::unique_ptr<ImageRows> open_image(const ImageSource& source);
 
 }  // namespace atlasgauge

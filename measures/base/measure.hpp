@@ -96,6 +96,7 @@ class MeasureOf final : public AnyMeasure {
   void accept(std::span<const UvEdge> groups) override { accumulate(groups); }
   void accept(std::span<const SeamEdge> groups) override { accumulate(groups); }
   void accept(std::span<const VertexStar> groups) override { accumulate(groups); }
+  void accept(std::span<const CrackEdge> groups) override { accumulate(groups); }
   void accept(std::span<const Component> groups) override { accumulate(groups); }
   void accept(std::span<const Chart> groups) override { accumulate(groups); }
   void accept(std::span<const TextureLevel> groups) override { accumulate(groups); }

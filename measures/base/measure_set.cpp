@@ -16,6 +16,7 @@ class MeasureSet::Partials : public GroupSink {
   void accept(std::span<const UvEdge> groups) override { hand_over(groups); }
   void accept(std::span<const SeamEdge> groups) override { hand_over(groups); }
   void accept(std::span<const VertexStar> groups) override { hand_over(groups); }
+  void accept(std::span<const CrackEdge> groups) override { hand_over(groups); }
   void accept(std::span<const Component> groups) override { hand_over(groups); }
   void accept(std::span<const Chart> groups) override { hand_over(groups); }
   void accept(std::span<const TextureLevel> groups) override { hand_over(groups); }

@@ -45,11 +45,13 @@ struct OutputSpills {
         uv_links(scratch),
         boundary_links(scratch),
         seams(scratch),
-        borders(scratch) {}
+        borders(scratch),
+        open(scratch) {}
 
   SharedSpill<Link> raw_links, uv_links, boundary_links;
   SharedSpill<SeamCandidate> seams;
   SharedSpill<BorderEdge> borders;
+  SharedSpill<OpenEdge> open;
 };
 
 /// The part of one worker.
@@ -58,18 +60,21 @@ struct Output {
     return 3 * Partition<Link>::staging_bytes(block_bytes) +
            Partition<SeamCandidate>::staging_bytes(block_bytes) +
            Partition<BorderEdge>::staging_bytes(block_bytes) +
-           GroupBuffer<RawEdge>::memory_bytes() + GroupBuffer<UvEdge>::memory_bytes();
+           Partition<OpenEdge>::staging_bytes(block_bytes) + GroupBuffer<RawEdge>::memory_bytes() +
+           GroupBuffer<UvEdge>::memory_bytes();
   }
 
-  Output(GroupSink& sink, OutputSpills& spills, bool with_borders)
+  Output(GroupSink& sink, OutputSpills& spills, const EdgeTable::Plan& plan)
       : raw_edges(sink),
         uv_edges(sink),
         raw_links(spills.raw_links),
         uv_links(spills.uv_links),
         boundary_links(spills.boundary_links),
         seams(spills.seams),
-        keep_borders(with_borders),
-        borders(spills.borders) {}
+        keep_borders(plan.keep_borders),
+        borders(spills.borders),
+        keep_open(plan.keep_open),
+        open(spills.open) {}
 
   void flush() {
     raw_edges.flush();
@@ -79,6 +84,7 @@ struct Output {
     boundary_links.flush();
     seams.flush();
     borders.flush();
+    open.flush();
   }
 
   GroupBuffer<RawEdge> raw_edges;
@@ -87,6 +93,8 @@ struct Output {
   SharedSpill<SeamCandidate>::Writer seams;
   bool keep_borders;
   SharedSpill<BorderEdge>::Writer borders;
+  bool keep_open;
+  SharedSpill<OpenEdge>::Writer open;
   bool raw_manifold = true;
   bool uv_manifold = true;
 };
@@ -211,7 +219,7 @@ class EdgeTableOf : public EdgeTable {
       : engine_(engine),
         frames_(frames),
         outputs_memory_(engine.budget.reserve(
-            5 * engine.block_bytes() +
+            6 * engine.block_bytes() +
                 engine.workers.count() * Output::memory_bytes(engine.block_bytes()),
             "links of edges")),
         spills_(engine.scratch),
@@ -229,7 +237,7 @@ class EdgeTableOf : public EdgeTable {
               split_hot_star(std::move(star), outputs_[0]);
             }) {
     for (std::size_t i = 0; i < engine.workers.count(); ++i) {
-      outputs_.emplace_back(sinks.of_worker(i), spills_, plan.keep_borders);
+      outputs_.emplace_back(sinks.of_worker(i), spills_, plan);
     }
   }
 
@@ -264,6 +272,7 @@ class EdgeTableOf : public EdgeTable {
     results.boundary_links = spills_.boundary_links.finish();
     results.seams = spills_.seams.finish();
     results.borders = spills_.borders.finish();
+    results.open = spills_.open.finish();
     return results;
   }
 
@@ -321,6 +330,10 @@ class EdgeTableOf : public EdgeTable {
     }
     if (edge.size() == 2 && !same_uv_edge(edge[0], edge[1])) {
       output.seams.push(seam_between(edge[0], edge[1]));
+    }
+    if (edge.size() == 1 && output.keep_open) {
+      const Record& only = edge[0];
+      output.open.push({{VertexId{only.raw_at_lo()}, VertexId{only.raw_at_hi()}}, only.face});
     }
     if (edge.size() > 2) std::sort(edge.begin(), edge.end(), by_uv);
     UvEdges<Record> uv_edges(output, frames_);

@@ -20,6 +20,7 @@ struct EdgeResults {
   Spill<Link> boundary_links;  ///< the two vertices of every raw boundary edge
   Spill<SeamCandidate> seams;
   Spill<BorderEdge> borders;  ///< uv boundary edges; empty unless they were to be kept
+  Spill<OpenEdge> open;       ///< welded boundary edges; empty unless they were to be kept
   bool raw_manifold = true;   ///< no raw edge has more than two faces
   bool uv_manifold = true;    ///< no uv edge has more than two faces
 };
@@ -35,6 +36,7 @@ class EdgeTable {
     std::uint64_t vertices;
     std::uint64_t memory_bytes;  ///< may be taken until settle()
     bool keep_borders;
+    bool keep_open = false;
   };
 
   virtual ~EdgeTable() = default;

@@ -2,12 +2,10 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
+#include <vector>
 
 #include "io/mesh_batch.hpp"
-#include "io/obj/obj_reader.hpp"
-#include "io/warnings.hpp"
-#include "stream/engine/engine.hpp"
+#include "stream/engine/budget.hpp"
 #include "stream/engine/last_uses.hpp"
 #include "stream/engine/spill.hpp"
 
@@ -23,6 +21,12 @@ struct BoundingBox {
   double longest_side() const;
 };
 
+/// Where a part of a model begins. Parts follow each other.
+struct PartStart {
+  std::uint64_t first_face;
+  double position_step;  ///< to which it rounds its positions, in model units; 0: it does not
+};
+
 /// A model in scratch, in file order.
 struct MeshStore {
   Spill<Position> positions;
@@ -30,6 +34,8 @@ struct MeshStore {
   Spill<FaceRecord> faces;
   /// Of vertices by faces. Faces that were dropped count, so a use may seem later than it is.
   LastUses last_faces;
+  Reservation parts_memory;
+  std::vector<PartStart> parts;
   BoundingBox box;
   std::uint64_t nonfinite_positions = 0;
   std::uint64_t invalid_polygons = 0;
@@ -38,10 +44,5 @@ struct MeshStore {
 
 /// Notes the last uses of the vertices of `faces`, which `before` others precede.
 void note_last_faces(std::span<const FaceRecord> faces, std::uint64_t before, LastUses& last_faces);
-
-/// Parses an OBJ on all workers into scratch. Polygons that name no vertex of the file are gone
-/// from the faces. `summary` gets what the file says besides geometry.
-MeshStore read_mesh(const Engine& engine, const std::string& path, Warnings& warnings,
-                    ObjSummary& summary);
 
 }  // namespace atlasgauge

@@ -75,6 +75,12 @@ struct BorderEdge {
   double length_texels;
 };
 
+/// A welded boundary edge, and the face it bounds.
+struct OpenEdge {
+  VertexId v[2];  ///< as written by that face
+  FaceId face;
+};
+
 /// One face's side of a welded edge (lo, hi), lo <= hi. Its two UVs are those of the corners at lo
 /// and at hi, so equal bits mean the same uv edge.
 struct HalfEdge {

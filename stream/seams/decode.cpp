@@ -39,7 +39,7 @@ Reservation reserve(const Engine& engine, std::uint64_t bytes, const DecodePlan&
   }
   const std::uint64_t missing_bytes = from_budget_bytes - free_bytes;
   throw Error(
-      ErrorKind::kResource, largest.path, 0,
+      ErrorKind::kResource, largest.source.path, 0,
       fmt::format("decoding this image ({} x {} texels) takes {} of memory, which is {} "
                   "more than there is; raise --memory by {} MiB",
                   largest.size->width, largest.size->height, format_bytes(bytes),
@@ -65,7 +65,7 @@ class Decoder {
   /// The first page of the image. Throws Error(kInput).
   std::uint64_t decode(const TextureSlot& slot, const OpenImage& open) {
     const TileLayout layout = layout_of(slot);
-    const std::unique_ptr<ImageRows> rows = open(slot.path);
+    const std::unique_ptr<ImageRows> rows = open(slot.source);
     require_as_before(rows->header(), slot);
     const std::uint64_t first_page = pages_.size();
     if (band_.size() < layout.band_bytes()) band_ = std::vector<std::byte>(layout.band_bytes());
@@ -85,7 +85,8 @@ class Decoder {
         header.kind == slot.kind) {
       return;
     }
-    throw Error(ErrorKind::kInput, slot.path, 0, "the image has changed since the run began");
+    throw Error(ErrorKind::kInput, slot.source.path, 0,
+                "the image has changed since the run began");
   }
 
   void write_band(ImageSize size, std::uint32_t bytes_of_texel, const TileLayout& layout,
@@ -224,7 +225,7 @@ void require_room_for_images(const Engine& engine, const TextureSlots& textures,
   }
   const std::uint64_t room_bytes = engine.scratch.room_bytes();
   if (all_bytes <= room_bytes) return;
-  throw Error(ErrorKind::kResource, largest->path, 0,
+  throw Error(ErrorKind::kResource, largest->source.path, 0,
               fmt::format("the images take {} of scratch when decoded, this one alone {} ({} x {} "
                           "texels), but there is room for {}; free space there or give another "
                           "directory with --tmp-dir",

@@ -315,6 +315,39 @@ TEST(ScalingTest, WhatIsCutIsTakenBack) {
   }
 }
 
+TEST(QuantizationTest, TellsStepsInModelUnitsAndTexels) {
+  MeshFacts facts = any_facts();
+  const Json json = report_of("quantization", {}, facts);
+  ASSERT_EQ(json["quantization"].size(), 1U);
+  const Json& input = json["quantization"][0];
+  EXPECT_EQ(input["input"], "a.drc");
+  EXPECT_EQ(input["parts"], 2);
+  EXPECT_EQ(input["quantized_parts"], 1);
+  EXPECT_EQ(input["position_bits"], 14);
+  EXPECT_EQ(input["position_step"], 0.5);
+  EXPECT_EQ(input["uv_bits"], 12);
+  EXPECT_EQ(input["uv_step_texels"], 1) << "a quarter of four texels";
+}
+
+TEST(QuantizationTest, WhatIsNotQuantizedHasNoStep) {
+  MeshFacts facts = any_facts();
+  facts.quantizations[0].position_bits = facts.quantizations[0].uv_bits = 0;
+  const Json json = report_of("quantization", {}, facts);
+  EXPECT_TRUE(json["quantization"][0]["position_step"].is_null());
+  EXPECT_TRUE(json["quantization"][0]["uv_step_texels"].is_null());
+  facts.quantizations.clear();
+  EXPECT_FALSE(report_of("quantization", {}, facts).contains("quantization"));
+  EXPECT_FALSE(report_of("quantization", {}, facts).contains("cracks"));
+}
+
+TEST(QuantizationTest, CracksAreCountedWithTheirLength) {
+  Groups groups;
+  groups.cracks = {{1}, {2.5}};
+  const Json json = report_of("quantization", groups);
+  EXPECT_EQ(json["cracks"], 2);
+  EXPECT_EQ(json["cracks_len"], 3.5);
+}
+
 TEST(TexelOverlapTest, CountsLevelZeroOfUsedSlots) {
   Groups groups;
   TextureLevel unused{SlotId{1}, 0, 10, 10, {}};

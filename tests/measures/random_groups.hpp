@@ -21,6 +21,7 @@ struct Groups {
   std::vector<VertexStar> stars;
   std::vector<Component> components;
   std::vector<Chart> charts;
+  std::vector<CrackEdge> cracks;
   std::vector<TextureLevel> levels;
 };
 
@@ -33,6 +34,7 @@ inline void feed(AnyMeasure& measure, const Groups& groups) {
   measure.accept(std::span(groups.stars));
   measure.accept(std::span(groups.components));
   measure.accept(std::span(groups.charts));
+  measure.accept(std::span(groups.cracks));
   measure.accept(std::span(groups.levels));
   if (!measure.sampled()) return;
   std::vector<Sample> samples;
@@ -73,6 +75,7 @@ class RandomGroups {
       groups.components.push_back({1 + below(100), below(4) != 0});
       groups.charts.push_back(chart(static_cast<FaceId>(i)));
       groups.levels.push_back(level());
+      groups.cracks.push_back({number()});
     }
     return groups;
   }
@@ -183,8 +186,10 @@ inline MeshFacts any_facts() {
   facts.boundary_components = 3;
   facts.box.add({0, 0, 0});
   facts.box.add({1, 2, 1});
-  facts.textures.slots.push_back({"image.png", "image.png", ImageSize{4, 4}, true});
+  facts.textures.slots.push_back({"image.png", {.path = "image.png"}, ImageSize{4, 4}, true});
   facts.textures.has_images = true;
+  facts.textures.of_material = {SlotId{0}};
+  facts.quantizations.push_back({"a.drc", 2, 1, 14, 0.5, 12, {0.25}, 0});
   facts.texmetro_seams = true;
   facts.vertices = vertices_on_a_line();
   for (const auto& measure : all_measures()) {

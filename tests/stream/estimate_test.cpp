@@ -38,14 +38,18 @@ std::string refusal_of(const ModelGuess& guess, const CostEstimate& cost, const 
   return "";
 }
 
-ImageHeader any_image(const std::string&) {
+ImageHeader any_image(const ImageSource&) {
   return {.size = {100, 64}};
+}
+
+ModelGuess guess_of(const std::string& model) {
+  return guess_model({&model, 1}, {.probe = any_image});
 }
 
 TEST(EstimateTest, CountsOfASmallModelAreExact) {
   const TempDir dir;
-  const ModelGuess guess = guess_model(
-      dir.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nf 1 2 3 4\n"), any_image);
+  const ModelGuess guess =
+      guess_of(dir.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nf 1 2 3 4\n"));
   EXPECT_TRUE(guess.is_whole);
   EXPECT_EQ(guess.positions, 4);
   EXPECT_EQ(guess.texcoords, 1);
@@ -57,9 +61,9 @@ TEST(EstimateTest, ImagesCountOnlyWhenTheyAreThere) {
   const TempDir dir;
   dir.write("a.mtl", "newmtl m\nmap_Kd a.png\n");
   const std::string model = dir.write("a.obj", "mtllib a.mtl\nv 0 0 0\n");
-  EXPECT_EQ(guess_model(model, any_image).images, 0U);
+  EXPECT_EQ(guess_of(model).images, 0U);
   dir.write("a.png", "");
-  const ModelGuess guess = guess_model(model, any_image);
+  const ModelGuess guess = guess_of(model);
   EXPECT_EQ(guess.images, 1U);
   EXPECT_EQ(guess.texels, 100 * 64);
   EXPECT_EQ(guess.largest_side_texels, 100);
@@ -76,8 +80,8 @@ TEST(EstimateTest, RandomOrderShowsInTheTablesThatFacesLoad) {
     in_order += "f" + index(i) + index(i + 1) + index(i + 2) + "\n";
     random += "f" + far(3 * i) + far(3 * i + 1) + far(3 * i + 2) + "\n";
   }
-  EXPECT_LT(guess_model(dir.write("a.obj", in_order), any_image).loaded_bytes_per_face, 100);
-  EXPECT_GT(guess_model(dir.write("b.obj", random), any_image).loaded_bytes_per_face, 600);
+  EXPECT_LT(guess_of(dir.write("a.obj", in_order)).loaded_bytes_per_face, 100);
+  EXPECT_GT(guess_of(dir.write("b.obj", random)).loaded_bytes_per_face, 600);
 }
 
 TEST(EstimateTest, MemoryOfAHugeModelIsBelowTheLimit) {
@@ -135,8 +139,9 @@ TEST(EstimateTest, ASampleIsTakenWhereTheSizeOfTheFileDoesNotSettleIt) {
   MemoryWishes wishes;
   wishes.engine_bytes = 2 * kMiB;
   const MemoryPlan plan = plan_memory(wishes, 2);
-  EXPECT_NO_THROW(require_resources_for(model, plan, dir.path().string(), any_image));
-  EXPECT_THROW(require_resources_for(model, plan, "/proc", any_image), Error)
+  EXPECT_NO_THROW(
+      require_resources_for({&model, 1}, plan, dir.path().string(), {.probe = any_image}));
+  EXPECT_THROW(require_resources_for({&model, 1}, plan, "/proc", {.probe = any_image}), Error)
       << "which has no free space";
 }
 

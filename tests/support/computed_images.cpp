@@ -77,12 +77,13 @@ ComputedImages::ComputedImages(std::map<std::string, ComputedImage> images)
     : images_(std::move(images)) {}
 
 ImageProbe ComputedImages::probe() const {
-  return [images = images_](const std::string& path) { return header_of(find(images, path)); };
+  return
+      [images = images_](const ImageSource& image) { return header_of(find(images, image.path)); };
 }
 
 OpenImage ComputedImages::open() const {
-  return [images = images_](const std::string& path) -> std::unique_ptr<ImageRows> {
-    return std::make_unique<ComputedRows>(find(images, path), path);
+  return [images = images_](const ImageSource& image) -> std::unique_ptr<ImageRows> {
+    return std::make_unique<ComputedRows>(find(images, image.path), image.path);
   };
 }
 

@@ -59,7 +59,8 @@ class MemoryImageRows : public ImageRows {
 
 /// Opens these images, which must live as long; others are missing.
 inline OpenImage open_from(const std::map<std::string, MemoryImage>& images) {
-  return [&images](const std::string& path) -> std::unique_ptr<ImageRows> {
+  return [&images](const ImageSource& source) -> std::unique_ptr<ImageRows> {
+    const std::string& path = source.path;
     const auto found = images.find(path);
     if (found == images.end()) throw Error(ErrorKind::kInput, path, 0, "missing");
     return std::make_unique<MemoryImageRows>(path, found->second);

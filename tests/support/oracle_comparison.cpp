@@ -65,7 +65,7 @@ oracle::Colour colour_of(TexelKind kind, const std::byte* texel) {
 oracle::Pixels decode(const OpenImage& open, const std::string& path) {
   if (!open) return {};
   try {
-    const std::unique_ptr<ImageRows> image = open(path);
+    const std::unique_ptr<ImageRows> image = open({.path = path});
     const ImageHeader header = image->header();
     const std::size_t texel_size = texel_bytes(header.kind), width = header.size.width;
     std::vector<std::byte> bytes(texel_size * width * header.size.height);
@@ -95,7 +95,7 @@ oracle::Options oracle_options(const PipelineConfig& config) {
     std::error_code ignored;
     if (!probe || !std::filesystem::is_regular_file(path, ignored)) return size;
     try {
-      const ImageSize found = probe(path).size;
+      const ImageSize found = probe({.path = path}).size;
       size = {found.width, found.height};
     } catch (const Error&) {
     }
@@ -116,7 +116,8 @@ std::uint64_t number_after(std::string_view message, std::string_view text) {
 }  // namespace
 
 ImageProbe probe_of(ImageSizes sizes) {
-  return [sizes = std::move(sizes)](const std::string& path) {
+  return [sizes = std::move(sizes)](const ImageSource& image) {
+    const std::string& path = image.path;
     const auto found = sizes.find(std::filesystem::path(path).filename().string());
     if (found == sizes.end()) throw Error(ErrorKind::kInput, path, 0, "missing");
     return ImageHeader{.size = {found->second.first, found->second.second}};

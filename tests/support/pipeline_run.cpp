@@ -33,6 +33,10 @@ constexpr std::size_t kQueuedBlocks = 8;
 }  // namespace
 
 PipelineResult run_pipeline(const std::string& model, const PipelineConfig& config) {
+  return run_pipeline(std::span(&model, 1), config);
+}
+
+PipelineResult run_pipeline(std::span<const std::string> inputs, const PipelineConfig& config) {
   MemoryBudget budget(config.engine_bytes + kQueuedBlocks * config.block_bytes);
   const std::string scratch_dir = std::filesystem::temp_directory_path().string();
   Scratch scratch({scratch_dir, config.block_bytes, config.resident_bytes, kQueuedBlocks}, budget);
@@ -41,22 +45,23 @@ PipelineResult run_pipeline(const std::string& model, const PipelineConfig& conf
   const Engine engine{budget, scratch, workers, log};
   Warnings warnings({});
   const ImageProbe probe =
-      config.probe ? config.probe : [](const std::string& path) -> ImageHeader { refuse(path); };
+      config.probe ? config.probe
+                   : [](const ImageSource& image) -> ImageHeader { refuse(image.path); };
   MeasureSet measures(workers.count());
-  const auto resolve = [&](const ObjSummary& obj) {
-    return resolve_textures(model, obj.mtllib_lines, obj.material_names, config.texture_size, probe,
-                            warnings);
+  const auto resolve = [&](std::span<const InputMaterials> materials) {
+    return resolve_textures(materials, config.texture_size, probe, warnings);
   };
   StreamOptions options;
   options.raster = raster_plan(config);
   options.texmetro_seams = config.texmetro_seams;
+  options.open_parts = config.open_parts;
   options.open_image = config.open_image;
   if (!config.open_image) {
-    options.open_image = [](const std::string& path) -> std::unique_ptr<ImageRows> {
-      refuse(path);
+    options.open_image = [](const ImageSource& image) -> std::unique_ptr<ImageRows> {
+      refuse(image.path);
     };
   }
-  const MeshFacts facts = stream_model(engine, model, options, warnings, resolve, measures);
+  const MeshFacts facts = stream_model(engine, inputs, options, warnings, resolve, measures);
   return {measures.finish(facts).to_json(), log.stages(), facts.raster,
           budget.peak_bytes() - kQueuedBlocks * config.block_bytes};
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "io/texture/texture_slots.hpp"
 #include "measures/base/report.hpp"
 #include "stream/engine/stage_log.hpp"
+#include "stream/mesh/read_model.hpp"
 #include "stream/raster/atlas_raster.hpp"
 
 namespace atlasgauge {
@@ -28,6 +30,7 @@ struct PipelineConfig {
   ImageProbe probe;      ///< none: no image can be read
   OpenImage open_image;  ///< none: no image can be decoded
   bool texmetro_seams = false;
+  OpenParts open_parts = open_no_parts;
 };
 
 struct PipelineResult {
@@ -39,5 +42,7 @@ struct PipelineResult {
 
 /// Measures a model in this process.
 PipelineResult run_pipeline(const std::string& model, const PipelineConfig& config);
+/// The same of several inputs as one model.
+PipelineResult run_pipeline(std::span<const std::string> inputs, const PipelineConfig& config);
 
 }  // namespace atlasgauge

@@ -33,7 +33,7 @@ class ImageInfoTest : public ::testing::Test {
 
   std::string error_of(const std::string& path) {
     try {
-      read_image_header(path);
+      read_image_header({.path = path});
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kInput);
       return error.what();
@@ -45,14 +45,14 @@ class ImageInfoTest : public ::testing::Test {
 };
 
 TEST_F(ImageInfoTest, ReadsTheSizeFromTheHeader) {
-  const ImageSize size = read_image_header(dir_.write("grey.pgm", kGreyImage)).size;
+  const ImageSize size = read_image_header({.path = dir_.write("grey.pgm", kGreyImage)}).size;
   EXPECT_EQ(size.width, 3U);
   EXPECT_EQ(size.height, 2U);
 }
 
 TEST_F(ImageInfoTest, TheEndingOfTheNameDoesNotMatter) {
-  EXPECT_EQ(read_image_header(dir_.write("grey.png", kGreyImage)).size.width, 3U);
-  EXPECT_EQ(read_image_header(dir_.write("grey", kGreyImage)).size.width, 3U);
+  EXPECT_EQ(read_image_header({.path = dir_.write("grey.png", kGreyImage)}).size.width, 3U);
+  EXPECT_EQ(read_image_header({.path = dir_.write("grey", kGreyImage)}).size.width, 3U);
 }
 
 TEST_F(ImageInfoTest, ImagesThatCannotBeReadAreErrors) {
@@ -110,7 +110,7 @@ std::vector<std::uint8_t> quarters(std::uint32_t side) {
 
 template <class Component>
 std::vector<Component> read_texels(const std::string& path, std::uint32_t band = 1U << 30) {
-  const std::unique_ptr<ImageRows> rows = open_image(path);
+  const std::unique_ptr<ImageRows> rows = open_image({.path = path});
   const ImageSize size = rows->header().size;
   EXPECT_EQ(texel_bytes(rows->header().kind), 3 * sizeof(Component)) << path;
   if (texel_bytes(rows->header().kind) != 3 * sizeof(Component)) return {};
@@ -156,7 +156,7 @@ class ImageRowsTest : public ImageInfoTest {
 
   std::string error_of_rows(const std::string& path) {
     try {
-      const std::unique_ptr<ImageRows> rows = open_image(path);
+      const std::unique_ptr<ImageRows> rows = open_image({.path = path});
       const ImageHeader& header = rows->header();
       std::vector<std::byte> row(std::size_t{header.size.width} * texel_bytes(header.kind));
       for (std::uint32_t y = 0; y < header.size.height; ++y) rows->read(1, row.data());
@@ -242,7 +242,7 @@ TEST_F(ImageRowsTest, BandsOfAnyHeightGiveTheSameRows) {
 }
 
 TEST_F(ImageRowsTest, MoreRowsThanThereAreAreAnError) {
-  const std::unique_ptr<ImageRows> rows = open_image(write_gradient("a.png"));
+  const std::unique_ptr<ImageRows> rows = open_image({.path = write_gradient("a.png")});
   std::vector<std::byte> to(std::size_t{kWidth} * 3 * (kHeight + 1));
   EXPECT_THROW(rows->read(kHeight + 1, to.data()), Error);
 }
@@ -343,7 +343,8 @@ TEST_F(ImageRowsTest, BitmapByHandWithAPaletteIsExpanded) {
 TEST_F(ImageRowsTest, SixteenBitsAreKept) {
   const std::vector<std::uint16_t> texels = {0, 1, 65535, 256, 257, 40000};
   for (const char* name : {"a.png", "a.tif"}) {
-    EXPECT_EQ(read_image_header(write(name, 2, 1, 3, texels)).kind, TexelKind::kShort) << name;
+    EXPECT_EQ(read_image_header({.path = write(name, 2, 1, 3, texels)}).kind, TexelKind::kShort)
+        << name;
     EXPECT_EQ(read_texels<std::uint16_t>((dir_.path() / name).string()), texels) << name;
   }
 }
@@ -529,11 +530,11 @@ TEST_F(ImageRowsTest, OpenExrCutAnywhereFails) {
 }
 
 TEST_F(ImageRowsTest, FilesThatAreNoImagesCannotBeOpened) {
-  EXPECT_THROW(open_image(dir_.write("empty.png", "")), Error);
-  EXPECT_THROW(open_image(dir_.write("text.jpg", "no image at all")), Error);
-  EXPECT_THROW(open_image((dir_.path() / "none.png").string()), Error);
-  EXPECT_THROW(open_image(dir_.path().string()), Error);
-  EXPECT_THROW(open_image((dir_.path() / "none.null").string()), Error);
+  EXPECT_THROW(open_image({.path = dir_.write("empty.png", "")}), Error);
+  EXPECT_THROW(open_image({.path = dir_.write("text.jpg", "no image at all")}), Error);
+  EXPECT_THROW(open_image({.path = (dir_.path() / "none.png").string()}), Error);
+  EXPECT_THROW(open_image({.path = dir_.path().string()}), Error);
+  EXPECT_THROW(open_image({.path = (dir_.path() / "none.null").string()}), Error);
 }
 
 TEST_F(ImageRowsTest, HeadersThatTheLibraryWouldCrashOnAreErrors) {
@@ -554,7 +555,9 @@ class DecoderBytesTest : public ImageRowsTest {
   static constexpr std::uint64_t kTexels = std::uint64_t{kSide} * kSide;
   static constexpr std::uint64_t kLittle = 10 << 20;
 
-  std::uint64_t bytes_of(const std::string& path) { return read_image_header(path).decoder_bytes; }
+  std::uint64_t bytes_of(const std::string& path) {
+    return read_image_header({.path = path}).decoder_bytes;
+  }
 
   std::string write_black(const std::string& name, const Settings& settings = {}) {
     return write(name, kSide, kSide, 3, std::vector<std::uint8_t>(kTexels * 3), settings);
@@ -607,7 +610,7 @@ TEST_F(DecoderBytesTest, AreToldForHeadersThatPromiseMuch) {
   const std::string gif = from_hex("474946383961ffffffff000000");
   EXPECT_GT(bytes_of(dir_.write("a.gif", gif)), std::uint64_t{4} * 65535 * 65535);
   const std::string netpbm = "P6\n2000000000 2000000000\n255\n";
-  EXPECT_EQ(read_image_header(dir_.write("a.ppm", netpbm)).size.width, 2000000000U);
+  EXPECT_EQ(read_image_header({.path = dir_.write("a.ppm", netpbm)}).size.width, 2000000000U);
 }
 
 TEST_F(DecoderBytesTest, OpenExrShorterThanItsTablesIsAnError) {

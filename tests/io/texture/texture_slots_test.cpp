@@ -18,7 +18,8 @@ using Lines = std::vector<std::string>;
 /// A model in a folder of its own, whose images are files that hold "WxH".
 class TextureSlotsTest : public ::testing::Test {
  protected:
-  static ImageHeader probe(const std::string& path) {
+  static ImageHeader probe(const ImageSource& image) {
+    const std::string& path = image.path;
     const auto bytes = static_cast<std::uint32_t>(std::filesystem::file_size(path));
     if (bytes == 0) throw Error(ErrorKind::kInput, path, 0, "no image");
     return {bytes, 2 * bytes};
@@ -27,8 +28,12 @@ class TextureSlotsTest : public ::testing::Test {
   TextureSlots resolve(const Lines& mtllib_lines, const Lines& materials,
                        std::optional<ImageSize> size = std::nullopt) {
     Warnings warnings([this](const std::string& text) { messages_.push_back(text); });
-    return resolve_textures((dir_.path() / "models/model.obj").string(), mtllib_lines, materials,
-                            size, probe, warnings);
+    const InputMaterials input = obj("models/model.obj", mtllib_lines, materials);
+    return resolve_textures({&input, 1}, size, probe, warnings);
+  }
+
+  InputMaterials obj(const std::string& name, const Lines& mtllib_lines, const Lines& materials) {
+    return {(dir_.path() / name).string(), ObjMaterials{mtllib_lines, materials}};
   }
 
   TempDir dir_;
@@ -109,8 +114,8 @@ TEST_F(TextureSlotsTest, CompressedModelsHaveTheSameOwnLibrary) {
   dir_.write("models/1.png", "x");
   Warnings warnings(nullptr);
   for (const char* name : {"models/model.obj.gz", "models/model.obj.zst"}) {
-    const TextureSlots textures =
-        resolve_textures((dir_.path() / name).string(), {}, {}, std::nullopt, probe, warnings);
+    const InputMaterials input = obj(name, {}, {});
+    const TextureSlots textures = resolve_textures({&input, 1}, std::nullopt, probe, warnings);
     EXPECT_EQ(textures.slots.at(0).name, "1.png");
   }
 }
@@ -128,7 +133,7 @@ TEST_F(TextureSlotsTest, AModelWithoutImagesHasOneSlotForAllFaces) {
   const TextureSlots textures = resolve({"a.mtl"}, {"m", "n"});
   ASSERT_EQ(textures.slots.size(), 1U);
   EXPECT_EQ(textures.slots[0].name, "N/A");
-  EXPECT_EQ(textures.slots[0].path, "");
+  EXPECT_EQ(textures.slots[0].source.path, "");
   EXPECT_EQ(textures.slots[0].size->width, 1U);
   EXPECT_FALSE(textures.slots[0].readable);
   EXPECT_EQ(textures.of_material, std::vector<SlotId>(2, SlotId{0}));
@@ -180,12 +185,11 @@ TEST_F(TextureSlotsTest, FaultsOfTheProgramAreNotWarnings) {
   dir_.write("models/a.mtl", "newmtl a\nmap_Kd 1.png\n");
   dir_.write("models/1.png", "x");
   Warnings warnings(nullptr);
-  const ImageProbe broken = [](const std::string&) -> ImageHeader {
+  const ImageProbe broken = [](const ImageSource&) -> ImageHeader {
     throw Error(ErrorKind::kInternal, "module missing");
   };
-  EXPECT_THROW(resolve_textures((dir_.path() / "models/model.obj").string(), {"a.mtl"}, {},
-                                std::nullopt, broken, warnings),
-               Error);
+  const InputMaterials input = obj("models/model.obj", {"a.mtl"}, {});
+  EXPECT_THROW(resolve_textures({&input, 1}, std::nullopt, broken, warnings), Error);
 }
 
 }  // namespace

@@ -47,6 +47,7 @@ std::vector<Groups> cut(const Groups& whole, std::size_t parts, unsigned seed) {
   deal(&Groups::stars);
   deal(&Groups::components);
   deal(&Groups::charts);
+  deal(&Groups::cracks);
   deal(&Groups::levels);
   return cut_up;
 }
@@ -103,6 +104,7 @@ TEST_P(MeasureLawsTest, OrderOfGroupsDoesNotMatter) {
   shuffle(shuffled.stars);
   shuffle(shuffled.components);
   shuffle(shuffled.charts);
+  shuffle(shuffled.cracks);
   shuffle(shuffled.levels);
   const Partial measure = fresh();
   feed(*measure, shuffled);
@@ -165,8 +167,8 @@ TEST(AllMeasuresTest, AreThoseThatRegisterByName) {
   EXPECT_EQ(all_names(),
             (std::vector<std::string>{"angle_min", "chart_area", "charts", "crumbliness",
                                       "distortion", "edges", "mapped_fraction", "mesh_size",
-                                      "scaling", "seams", "texel_density", "texel_overlap",
-                                      "texture_use", "topology", "worst_seams"}));
+                                      "quantization", "scaling", "seams", "texel_density",
+                                      "texel_overlap", "texture_use", "topology", "worst_seams"}));
 }
 
 TEST(AllMeasuresTest, NoTwoSetTheSameKey) {

@@ -67,7 +67,7 @@ inline constexpr Indices3 kNoUvs{kNoUv, kNoUv, kNoUv};
 /// One readable image for all materials, 1x1 unless told: texels are UVs then.
 inline TextureSlots one_image(std::uint32_t width = 1, std::uint32_t height = 1) {
   TextureSlots slots;
-  slots.slots.push_back({"image.png", "image.png", ImageSize{width, height}, true});
+  slots.slots.push_back({"image.png", {.path = "image.png"}, ImageSize{width, height}, true});
   slots.of_material = {SlotId{0}};
   slots.has_images = true;
   return slots;

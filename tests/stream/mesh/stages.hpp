@@ -37,6 +37,7 @@ class GroupCollector : public GroupSinks, private GroupSink {
   std::vector<VertexStar> stars;
   std::vector<Component> components;
   std::vector<Chart> charts;
+  std::vector<CrackEdge> cracks;
   std::vector<TextureLevel> levels;
 
  private:
@@ -47,6 +48,7 @@ class GroupCollector : public GroupSinks, private GroupSink {
   void accept(std::span<const VertexStar> groups) override { keep(groups, stars); }
   void accept(std::span<const Component> groups) override { keep(groups, components); }
   void accept(std::span<const Chart> groups) override { keep(groups, charts); }
+  void accept(std::span<const CrackEdge> groups) override { keep(groups, cracks); }
   void accept(std::span<const TextureLevel> groups) override { keep(groups, levels); }
   void sample(std::size_t, std::span<const Triangle>, std::vector<Sample>&) override {}
   void sample(std::size_t, std::span<const Chart>, std::vector<Sample>&) override {}

@@ -70,7 +70,7 @@ struct Atlas {
 
   TextureSlots slots() const {
     TextureSlots slots;
-    for (const ImageSize& size : sizes) slots.slots.push_back({"a/b.png", "", size, true});
+    for (const ImageSize& size : sizes) slots.slots.push_back({"a/b.png", {}, size, true});
     return slots;
   }
 };

@@ -27,13 +27,13 @@ constexpr std::uint64_t kMiB = 1 << 20;
 class OpenCount {
  public:
   OpenImage counting(const OpenImage& open) {
-    return [this, open](const std::string& path) -> std::unique_ptr<ImageRows> {
+    return [this, open](const ImageSource& image) -> std::unique_ptr<ImageRows> {
       {
         const std::lock_guard lock(mutex_);
-        ++opened[path];
+        ++opened[image.path];
         most_at_a_time = std::max(most_at_a_time, ++now_);
       }
-      return std::make_unique<Rows>(*this, open(path));
+      return std::make_unique<Rows>(*this, open(image));
     };
   }
 
@@ -187,7 +187,7 @@ TEST_F(DecodeTest, BrokenImagesAreWarningsAndTheOthersAreDecoded) {
   textures_.add(cut);
   textures_.add(distinct_texels({100, 300}, TexelKind::kByte));
   textures_.slots().slots.push_back(textures_.slots().slots[1]);
-  textures_.slots().slots[2].path = "gone";
+  textures_.slots().slots[2].source.path = "gone";
   TestEngine engine;
   Warnings warnings([&](const std::string& text) { warned_.push_back(text); });
   const TexelStore store =
@@ -235,11 +235,11 @@ TEST_F(DecodeTest, ShortageIsNoFaultOfAnImage) {
   Warnings warnings([](const std::string& text) { ADD_FAILURE() << text; });
   TestEngine engine;
   DecodePlan plan;
-  plan.open_image = [](const std::string&) -> std::unique_ptr<ImageRows> {
+  plan.open_image = [](const ImageSource&) -> std::unique_ptr<ImageRows> {
     throw std::bad_alloc();
   };
   EXPECT_THROW(decode_images(engine, textures_.slots(), all, plan, warnings), std::bad_alloc);
-  plan.open_image = [](const std::string&) -> std::unique_ptr<ImageRows> {
+  plan.open_image = [](const ImageSource&) -> std::unique_ptr<ImageRows> {
     throw Error(ErrorKind::kResource, "no disk");
   };
   EXPECT_THROW(decode_images(engine, textures_.slots(), all, plan, warnings), Error);

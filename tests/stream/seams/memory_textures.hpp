@@ -18,7 +18,7 @@ class MemoryTextures {
     const std::string name = "image" + std::to_string(slots_.slots.size());
     images_[name] = image;
     TextureSlot& slot = slots_.slots.emplace_back();
-    slot.name = slot.path = name;
+    slot.name = slot.source.path = name;
     slot.size = image.header.size;
     slot.readable = true;
     slot.kind = image.header.kind;
@@ -38,7 +38,9 @@ class MemoryTextures {
   const TextureSlots& slots() const { return slots_; }
   TextureSlots& slots() { return slots_; }
   const std::vector<SlotFrame>& frames() const { return frames_; }
-  const MemoryImage& image(SlotId slot) const { return images_.at(slots_.slots[raw(slot)].path); }
+  const MemoryImage& image(SlotId slot) const {
+    return images_.at(slots_.slots[raw(slot)].source.path);
+  }
   OpenImage open() const { return open_from(images_); }
 
  private:

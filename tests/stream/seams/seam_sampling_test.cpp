@@ -49,12 +49,12 @@ class Scene {
     SeamPlan wanted = plan;
     wanted.decode.model = "model.obj";
     std::mutex mutex;
-    wanted.decode.open_image = [&](const std::string& path) {
+    wanted.decode.open_image = [&](const ImageSource& image) {
       {
         const std::lock_guard lock(mutex);
-        ++opened[path];
+        ++opened[image.path];
       }
-      return textures_.open()(path);
+      return textures_.open()(image);
     };
     Warnings warnings([&](const std::string& text) { warned.push_back(text); });
     results = sample_seams(engine, spill_of(engine, edges), textures_.slots(),
