@@ -156,7 +156,7 @@ class HeaderParser {
     header_.counts.positions = is_varint ? bytes_.varint() : bytes_.fixed(4);
     header_.counts.texcoords = header_.counts.positions;
     check_counts();
-    header_.decoding_bytes = draco_need::sequential(header_.counts);
+    set_need(draco_need::sequential(header_.counts));
   }
 
   void read_edgebreaker_counts() {
@@ -167,12 +167,20 @@ class HeaderParser {
     header_.counts.positions = number();
     header_.counts.faces = number();
     header_.counts.texcoords = header_.counts.positions;
-    const std::uint8_t attributes = bytes_.byte();
+    header_.seamed_attributes = bytes_.byte();
     const std::uint32_t symbols = number();
     const std::uint32_t splits = number();
     check_counts();
     if (symbols > header_.counts.faces || splits > symbols) refuse_counts();
-    header_.decoding_bytes = draco_need::edgebreaker(header_.counts, splits, attributes);
+    set_need(
+        header_.seamed_attributes == 0
+            ? draco_need::edgebreaker(header_.counts, splits)
+            : draco_need::seamed_edgebreaker(header_.counts, splits, header_.seamed_attributes));
+  }
+
+  void set_need(const draco_need::Need& need) {
+    header_.attribute_bytes = need.attribute_bytes;
+    header_.decoding_bytes = need.connectivity_bytes + need.attribute_bytes;
   }
 
   void check_counts() const {

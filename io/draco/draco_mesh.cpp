@@ -10,18 +10,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include "io/draco/draco_need.hpp"
 #include "io/error.hpp"
 
 namespace atlasgauge {
 namespace {
 
-/// Most bytes that a decoder holds of one value of an attribute: as integers, as what it is, and
-/// the index of a point into them.
-std::uint64_t bytes_per_point(const draco::PointAttribute& attribute) {
-  const auto components = static_cast<std::uint64_t>(attribute.num_components());
-  return components * sizeof(std::int32_t) + static_cast<std::uint64_t>(attribute.byte_stride()) +
-         sizeof(std::uint32_t);
+/// Most bytes that a decoder holds of one value of an attribute, as integers and as what it is.
+std::uint64_t value_bytes(const draco::PointAttribute& attribute) {
+  return static_cast<std::uint64_t>(attribute.num_components()) * sizeof(std::int32_t) +
+         static_cast<std::uint64_t>(attribute.byte_stride());
 }
 
 /// One of Draco's decoders, stopped before it allocates more for attributes than the header's
@@ -29,22 +26,45 @@ std::uint64_t bytes_per_point(const draco::PointAttribute& attribute) {
 template <class Decoder>
 class BoundedDecoder : public Decoder {
  public:
+  explicit BoundedDecoder(const DracoHeader& header) : header_(header) {}
+
   /// Bytes that the attributes would take, if that is too much.
   std::uint64_t refused_bytes() const { return refused_bytes_; }
 
  protected:
   bool DecodeAllAttributes() override {
-    const draco::PointCloud& points = *this->point_cloud();
-    std::uint64_t bytes = 0;
-    for (std::int32_t i = 0; i < points.num_attributes(); ++i) {
-      bytes += points.num_points() * bytes_per_point(*points.attribute(i));
-    }
-    if (bytes <= draco_need::attributes(points.num_points())) return Decoder::DecodeAllAttributes();
+    const std::uint64_t bytes = attribute_bytes();
+    if (bytes <= header_.attribute_bytes) return Decoder::DecodeAllAttributes();
     refused_bytes_ = bytes;
     return false;
   }
 
  private:
+  std::uint64_t attribute_bytes() const {
+    const draco::PointCloud& points = *this->point_cloud();
+    std::uint64_t bytes = 0;
+    for (std::int32_t i = 0; i < points.num_attributes(); ++i) {
+      bytes += values_of(i) * value_bytes(*points.attribute(i));
+      bytes += points.num_points() * sizeof(std::uint32_t);
+    }
+    return bytes;
+  }
+
+  std::uint64_t values_of(std::int32_t attribute) const {
+    const std::uint64_t points = this->point_cloud()->num_points();
+    const draco::CornerTable* const corners = this->GetCornerTable();
+    if (corners == nullptr || shares_seams()) return points;
+    const draco::MeshAttributeCornerTable* const seamed = this->GetAttributeCornerTable(attribute);
+    return static_cast<std::uint64_t>(seamed == nullptr ? corners->num_vertices()
+                                                        : seamed->num_vertices());
+  }
+
+  /// No encoder writes such a stream, and Draco knows the seams of one of the attributes only.
+  bool shares_seams() const {
+    return this->num_attributes_decoders() > header_.seamed_attributes + 1;
+  }
+
+  const DracoHeader& header_;
   std::uint64_t refused_bytes_ = 0;
 };
 
@@ -89,9 +109,9 @@ class DracoMesh::Decoded {
           const std::string& path)
       : path_(path) {
     if (header.is_edgebreaker) {
-      decode_with<draco::MeshEdgebreakerDecoder>(stream, attributes);
+      decode_with<draco::MeshEdgebreakerDecoder>(stream, header, attributes);
     } else {
-      decode_with<draco::MeshSequentialDecoder>(stream, attributes);
+      decode_with<draco::MeshSequentialDecoder>(stream, header, attributes);
     }
     find_materials();
     check_indices();
@@ -116,12 +136,14 @@ class DracoMesh::Decoded {
   }
 
   template <class Decoder>
-  void decode_with(std::string_view stream, const DracoAttributes& attributes) {
-    BoundedDecoder<Decoder> decoder;
+  void decode_with(std::string_view stream, const DracoHeader& header,
+                   const DracoAttributes& attributes) {
+    BoundedDecoder<Decoder> decoder(header);
     draco::DecoderBuffer buffer;
     buffer.Init(stream.data(), stream.size());
     const draco::Status status = run(decoder, buffer);
-    if (decoder.refused_bytes() != 0) refuse_attributes(decoder.refused_bytes());
+    if (decoder.refused_bytes() != 0)
+      refuse_attributes(decoder.refused_bytes(), header.attribute_bytes);
     if (!status.ok()) {
       refuse(
           fmt::format("found a Draco stream that cannot be decoded ({}); the file is damaged, "
@@ -142,13 +164,12 @@ class DracoMesh::Decoded {
     }
   }
 
-  [[noreturn]] void refuse_attributes(std::uint64_t bytes) const {
+  [[noreturn]] void refuse_attributes(std::uint64_t bytes, std::uint64_t room) const {
     throw Error(ErrorKind::kResource, path_, 0,
                 fmt::format("found {} attributes that take {} bytes to decode for {} points, and "
                             "there is room for {}; encode the model without attributes other than "
                             "positions and texture coordinates",
-                            mesh_.num_attributes(), bytes, mesh_.num_points(),
-                            draco_need::attributes(mesh_.num_points())));
+                            mesh_.num_attributes(), bytes, mesh_.num_points(), room));
   }
 
   void choose(const DracoAttributes& attributes, draco::MeshDecoder& decoder) {

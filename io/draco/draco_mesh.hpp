@@ -25,6 +25,8 @@ struct DracoHeader {
   /// Peak of decoding a mesh, as measured (see draco_need.hpp), the stream itself not included.
   /// decode() refuses a stream whose attributes take more.
   std::uint64_t decoding_bytes = 0;
+  std::uint64_t attribute_bytes = 0;   ///< of these, room for the values of attributes
+  std::uint8_t seamed_attributes = 0;  ///< attributes with a connectivity of their own
   /// Not 0: metadata stand before the counts and go on beyond the given bytes. The counts are then
   /// 0 and decoding_bytes a guess; ask again with so many bytes of the stream.
   std::uint64_t begin_bytes_needed = 0;
