@@ -286,7 +286,7 @@ Position DracoMesh::position(std::uint64_t i) const {
   std::array<double, 3> values{};
   const draco::AttributeValueIndex index(static_cast<std::uint32_t>(i));
   decoded_->positions().ConvertValue<double, 3>(index, values.data());
-  return {values[0], values[1], values[2]};
+  return {values[0] + 0.0, values[1] + 0.0, values[2] + 0.0};
 }
 
 TexCoord DracoMesh::texcoord(std::uint64_t i) const {
