@@ -66,7 +66,7 @@ class HeaderParser {
 
   DracoHeader parse() {
     read_start();
-    if (has_metadata_) skip_geometry_metadata();
+    if (header_.has_metadata) skip_geometry_metadata();
     if (!header_.is_mesh) {
       header_.counts.positions = bytes_.fixed(4);
     } else if (header_.is_edgebreaker) {
@@ -103,7 +103,7 @@ class HeaderParser {
     header_.is_mesh = type == kMesh;
     header_.is_edgebreaker = header_.is_mesh && method == kEdgebreaker;
     check_version();
-    has_metadata_ = (bytes_.fixed(2) & kMetadataFlag) != 0 && is_at_least(1, 3);
+    header_.has_metadata = (bytes_.fixed(2) & kMetadataFlag) != 0 && is_at_least(1, 3);
   }
 
   void check_version() const {
@@ -217,7 +217,6 @@ class HeaderParser {
   std::uint64_t stream_bytes_;
   const std::string& path_;
   DracoHeader header_;
-  bool has_metadata_ = false;
 };
 
 }  // namespace
@@ -235,6 +234,14 @@ DracoHeader read_draco_header(std::string_view begin, std::uint64_t stream_bytes
   header.decoding_bytes = stream_bytes * draco_need::kUsualBytesPerStreamByte;
   header.begin_bytes_needed = std::min<std::uint64_t>(stream_bytes, 4 * begin.size() + 256);
   return header;
+}
+
+void require_draco_mesh(const DracoHeader& header, const std::string& path) {
+  if (header.is_mesh) return;
+  throw Error(ErrorKind::kInput, path, 0,
+              fmt::format("found a Draco point cloud of {} points, expected a mesh: there are no "
+                          "faces to measure; give the mesh made from it",
+                          header.counts.positions));
 }
 
 }  // namespace atlasgauge

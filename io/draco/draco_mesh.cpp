@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/draco/draco_materials.hpp"
 #include "io/error.hpp"
 
 namespace atlasgauge {
@@ -198,25 +199,15 @@ class DracoMesh::Decoded {
         Quantization{position_grid.bits, position_grid.step, uv_grid.bits, uv_grid.step};
   }
 
-  /// The attribute has an entry a material, of its name and its value.
   void find_materials() {
     if (mesh_.GetMetadata() == nullptr) return;
-    const draco::AttributeMetadata* const metadata =
-        mesh_.GetMetadata()->GetAttributeMetadataByStringEntry("name", "material");
-    if (metadata == nullptr) return;
-    const std::int32_t id = mesh_.GetAttributeIdByUniqueId(metadata->att_unique_id());
+    std::optional<DracoMaterials> found = find_draco_materials(*mesh_.GetMetadata());
+    if (!found) return;
+    material_names_ = std::move(found->names);
+    const std::int32_t id = mesh_.GetAttributeIdByUniqueId(found->attribute_id);
     if (id < 0 || mesh_.attribute(id)->num_components() != 1) return;
-    if (!draco::IsDataTypeIntegral(mesh_.attribute(id)->data_type())) return;
-    materials_ = mesh_.attribute(id);
-    const auto& entries = metadata->entries();
-    for (const auto& [name, entry] : entries) {
-      std::int32_t value = 0;
-      const bool is_material = name != "name" && name != "file_name" && entry.GetValue(&value) &&
-                               value >= 0 && std::cmp_less(value, entries.size());
-      if (!is_material) continue;
-      const auto index = static_cast<std::size_t>(value);
-      if (material_names_.size() <= index) material_names_.resize(index + 1);
-      material_names_[index] = name;
+    if (draco::IsDataTypeIntegral(mesh_.attribute(id)->data_type())) {
+      materials_ = mesh_.attribute(id);
     }
   }
 
@@ -261,12 +252,7 @@ DracoMesh::~DracoMesh() = default;
 DracoMesh DracoMesh::decode(std::string_view stream, const DracoAttributes& attributes,
                             const std::string& path) {
   const DracoHeader header = read_draco_header(stream, stream.size(), path);
-  if (!header.is_mesh) {
-    throw Error(ErrorKind::kInput, path, 0,
-                fmt::format("found a Draco point cloud of {} points, expected a mesh: there are no "
-                            "faces to measure; give the mesh made from it",
-                            header.counts.positions));
-  }
+  require_draco_mesh(header, path);
   return DracoMesh(std::make_unique<Decoded>(stream, header, attributes, path));
 }
 

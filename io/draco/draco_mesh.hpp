@@ -18,6 +18,7 @@ namespace atlasgauge {
 struct DracoHeader {
   bool is_mesh = false;  ///< else a point cloud
   bool is_edgebreaker = false;
+  bool has_metadata = false;
   std::uint8_t major_version = 0, minor_version = 0;
   /// As the stream promises them. Texture coordinates are not counted there: as many as positions
   /// is a guess. A point cloud has positions only.
@@ -38,6 +39,13 @@ struct DracoHeader {
 /// kMaxElements of anything.
 DracoHeader read_draco_header(std::string_view begin, std::uint64_t stream_bytes,
                               const std::string& path);
+
+/// Throws Error(kInput) for a point cloud, which has no faces to measure.
+void require_draco_mesh(const DracoHeader& header, const std::string& path);
+
+/// As DracoMesh::material_names(), from the bytes that the header was read from.
+std::vector<std::string> read_draco_material_names(std::string_view begin,
+                                                   const DracoHeader& header);
 
 /// Which attributes of a stream to take: by their unique ids, as KHR_draco_mesh_compression names
 /// them, or the first of their kind.

@@ -6,7 +6,7 @@
 #include <bit>
 #include <utility>
 
-#include "io/ply/ply_batches.hpp"
+#include "io/model/part_batches.hpp"
 #include "io/ply/ply_cursor.hpp"
 #include "io/ply/ply_faces.hpp"
 
@@ -168,7 +168,7 @@ class BodyReader {
   Warnings& warnings_;
   PlyPlace place_;
   Cursor cursor_;
-  PlyBatches batches_;
+  PartBatches batches_;
   PlyFaces<Cursor> faces_;
   std::uint64_t long_lines_ = 0;
 };
@@ -176,7 +176,7 @@ class BodyReader {
 }  // namespace
 
 std::size_t ply_body_bytes() {
-  return PlyBatches::kMemoryBytes + PlyFaces<PlyTextCursor>::kMemoryBytes;
+  return PartBatches::kMemoryBytes + PlyFaces<PlyTextCursor>::kMemoryBytes;
 }
 
 void read_ply_body(PlyInput& input, const PlyHeader& header, const PlyLayout& layout,

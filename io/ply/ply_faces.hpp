@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/error.hpp"
-#include "io/ply/ply_batches.hpp"
+#include "io/model/part_batches.hpp"
 #include "io/ply/ply_cursor.hpp"
 #include "io/ply/ply_layout.hpp"
 
@@ -28,7 +28,7 @@ class PlyFaces {
   static constexpr std::size_t kMemoryBytes =
       kMaxHeldCorners * (sizeof(VertexId) + sizeof(TexCoord));
 
-  PlyFaces(Cursor& cursor, const PlyPlace& place, const PlyLayout& layout, PlyBatches& batches)
+  PlyFaces(Cursor& cursor, const PlyPlace& place, const PlyLayout& layout, PartBatches& batches)
       : cursor_(cursor), place_(place), layout_(layout), batches_(batches) {}
 
   void read_record() {
@@ -198,7 +198,7 @@ class PlyFaces {
   Cursor& cursor_;
   const PlyPlace& place_;
   const PlyLayout& layout_;
-  PlyBatches& batches_;
+  PartBatches& batches_;
 
   std::uint64_t corners_ = 0;
   std::uint64_t texcoord_values_ = 0;

@@ -1,4 +1,4 @@
-#include "io/ply/ply_batches.hpp"
+#include "io/model/part_batches.hpp"
 
 #include <limits>
 
@@ -6,31 +6,31 @@
 
 namespace atlasgauge {
 
-PlyBatches::PlyBatches(const std::string& path, MeshSink& sink, Warnings& warnings)
+PartBatches::PartBatches(const std::string& path, MeshSink& sink, Warnings& warnings)
     : path_(path), sink_(sink), values_(path, warnings) {
   positions_.reserve(kBatch);
   texcoords_.reserve(kBatch);
   faces_.reserve(kBatch);
 }
 
-void PlyBatches::drop_polygon(const char* why, std::uint64_t line) {
+void PartBatches::drop_polygon(const char* why, std::uint64_t line) {
   ++invalid_polygons_;
   values_.polygon_dropped(why, line);
 }
 
-void PlyBatches::withdraw_polygon(std::uint64_t faces, std::uint64_t line) {
+void PartBatches::withdraw_polygon(std::uint64_t faces, std::uint64_t line) {
   const ForwardPolygon polygon{this->faces() - faces, faces,
                                std::numeric_limits<std::uint64_t>::max(), line};
   flush();
   sink_.add({.forward = {&polygon, 1}});
 }
 
-void PlyBatches::finish() {
+void PartBatches::finish() {
   flush();
   values_.finish();
 }
 
-void PlyBatches::flush() {
+void PartBatches::flush() {
   check_room(path_, "positions", positions_before_, positions_.size());
   check_room(path_, "texture coordinates", texcoords_before_, texcoords_.size());
   check_room(path_, "triangles", faces_before_, faces_.size());

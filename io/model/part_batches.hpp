@@ -11,13 +11,13 @@
 namespace atlasgauge {
 
 /// Collects values into batches of a fixed size for a sink, and counts them.
-class PlyBatches {
+class PartBatches {
  public:
   static constexpr std::size_t kBatch = 4096;
   static constexpr std::size_t kMemoryBytes =
       kBatch * (sizeof(Position) + sizeof(TexCoord) + sizeof(FaceRecord));
 
-  PlyBatches(const std::string& path, MeshSink& sink, Warnings& warnings);
+  PartBatches(const std::string& path, MeshSink& sink, Warnings& warnings);
 
   std::uint64_t texcoords() const { return texcoords_before_ + texcoords_.size(); }
   std::uint64_t faces() const { return faces_before_ + faces_.size(); }
