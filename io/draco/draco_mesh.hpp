@@ -19,14 +19,21 @@ struct DracoHeader {
   bool is_mesh = false;  ///< else a point cloud
   bool is_edgebreaker = false;
   std::uint8_t major_version = 0, minor_version = 0;
+  /// As the stream promises them. Texture coordinates are not counted there: as many as positions
+  /// is a guess. A point cloud has positions only.
   PartCounts counts;
-  /// Peak of decoding it, as measured (see draco_mesh.cpp), the stream itself not included.
+  /// Peak of decoding a mesh, as measured (see draco_need.hpp), the stream itself not included.
+  /// decode() refuses a stream whose attributes take more.
   std::uint64_t decoding_bytes = 0;
+  /// Not 0: metadata stand before the counts and go on beyond the given bytes. The counts are then
+  /// 0 and decoding_bytes a guess; ask again with so many bytes of the stream.
+  std::uint64_t begin_bytes_needed = 0;
 };
 
-/// From the first bytes of a stream (256 are enough for every version). `path` is for messages.
-/// Throws Error(kInput) for what is no Draco stream, for one cut short, of an unknown version, or
-/// with counts that `stream_bytes` cannot hold.
+/// From the first bytes of a stream (256 are enough for every version without metadata). `path` is
+/// for messages. Throws Error(kInput) for what is no Draco stream, for one cut short, of an unknown
+/// version, or with counts that `stream_bytes` cannot hold; Error(kResource) for more than
+/// kMaxElements of anything.
 DracoHeader read_draco_header(std::string_view begin, std::uint64_t stream_bytes,
                               const std::string& path);
 
@@ -42,7 +49,8 @@ struct DracoAttributes {
 class DracoMesh {
  public:
   /// Decodes all of a stream. Throws Error(kInput), also for a point cloud, and where positions or
-  /// texture coordinates have other than 3 and 2 components.
+  /// texture coordinates have other than 3 and 2 components; Error(kResource) where attributes
+  /// beyond the usual would take more than the header's decoding_bytes.
   static DracoMesh decode(std::string_view stream, const DracoAttributes& attributes,
                           const std::string& path);
   DracoMesh(DracoMesh&&) noexcept;
