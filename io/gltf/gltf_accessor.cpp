@@ -51,8 +51,9 @@ std::shared_ptr<const SparseSource> find_sparse(const GltfSparse& sparse,
   const std::string& path = buffers.path();
   if (sparse.count > source.count || !is_index(sparse.index_type)) {
     throw Error(ErrorKind::kInput, path, 0,
-                source.name + " replaces more elements than it has, or by indices that are not "
-                              "unsigned integers");
+                source.name +
+                    " replaces more elements than it has, or by indices that are not "
+                    "unsigned integers");
   }
   auto found = std::make_shared<SparseSource>();
   found->indices.name = "the sparse indices of " + source.name;
@@ -169,14 +170,13 @@ void AccessorBlocks::read_data(std::size_t elements) {
   }
 }
 
-AccessorSource find_accessor(const GltfModel& model, GltfBuffers& buffers,
-                             std::uint32_t accessor) {
+AccessorSource find_accessor(const GltfModel& model, GltfBuffers& buffers, std::uint32_t accessor) {
   const std::string name = fmt::format("accessor {}", accessor);
   const std::string& path = buffers.path();
   if (accessor >= model.accessors.size()) {
-    throw Error(ErrorKind::kInput, path, 0,
-                fmt::format("a primitive names {}, but there are {}", name,
-                            model.accessors.size()));
+    throw Error(
+        ErrorKind::kInput, path, 0,
+        fmt::format("a primitive names {}, but there are {}", name, model.accessors.size()));
   }
   const GltfAccessor& found = model.accessors[accessor];
   check_count(name, found.count, path);

@@ -69,8 +69,8 @@ class AccessorBlocks {
   std::unique_ptr<Substitution> substitution_;
 };
 
-/// Throws Error(kInput) unless the indices of a sparse accessor ascend and name elements of it. Does
-/// nothing for one that is not sparse.
+/// Throws Error(kInput) unless the indices of a sparse accessor ascend and name elements of it.
+/// Does nothing for one that is not sparse.
 void check_sparse(const AccessorSource& source, std::size_t block_elements);
 
 /// What a component means: the number itself or, normalized, a fraction of the largest (glTF 2.0,

@@ -18,8 +18,8 @@ GltfBuffers::GltfBuffers(const GltfModel& model, std::string path, std::filesyst
 
 ByteRange GltfBuffers::view(std::uint32_t view, const std::string& what) {
   if (view >= model_.views.size()) {
-    refuse(fmt::format("{} names buffer view {}, but there are {}", what, view,
-                       model_.views.size()));
+    refuse(
+        fmt::format("{} names buffer view {}, but there are {}", what, view, model_.views.size()));
   }
   const GltfBufferView& found = model_.views[view];
   const ByteRange& bytes = buffer(found.buffer, fmt::format("buffer view {}", view));

@@ -18,19 +18,70 @@ constexpr std::string_view kTexCoordPrefix = "TEXCOORD_";
 constexpr std::array kMeshoptExtensions = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
 /// In the order of the alphabet.
-constexpr std::array<std::string_view, 64> kMembers = {
-    "CESIUM_RTC", "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "EXT_texture_avif",
-    "EXT_texture_webp", "KHR_draco_mesh_compression",
-    "KHR_materials_pbrSpecularGlossiness", "KHR_meshopt_compression",
-    "KHR_texture_basisu", "KHR_texture_transform", "MSFT_texture_dds", "POSITION", "accessors",
-    "asset", "attributes", "baseColorFactor", "baseColorTexture", "buffer", "bufferView",
-    "bufferViews", "buffers", "byteLength", "byteOffset", "byteStride", "center", "children",
-    "componentType", "count", "diffuseTexture", "emissiveTexture", "extensions",
-    "extensionsRequired", "fallback", "images", "index", "indices", "material", "materials",
-    "matrix", "mesh", "meshes", "mimeType", "mode", "name", "nodes", "normalized", "offset",
-    "pbrMetallicRoughness", "primitives", "rotation", "scale", "scene", "scenes", "skin", "source",
-    "sparse", "targets", "texCoord", "textures", "translation", "type", "uri", "values",
-    "version"};
+constexpr std::array<std::string_view, 64> kMembers = {"CESIUM_RTC",
+                                                       "EXT_mesh_gpu_instancing",
+                                                       "EXT_meshopt_compression",
+                                                       "EXT_texture_avif",
+                                                       "EXT_texture_webp",
+                                                       "KHR_draco_mesh_compression",
+                                                       "KHR_materials_pbrSpecularGlossiness",
+                                                       "KHR_meshopt_compression",
+                                                       "KHR_texture_basisu",
+                                                       "KHR_texture_transform",
+                                                       "MSFT_texture_dds",
+                                                       "POSITION",
+                                                       "accessors",
+                                                       "asset",
+                                                       "attributes",
+                                                       "baseColorFactor",
+                                                       "baseColorTexture",
+                                                       "buffer",
+                                                       "bufferView",
+                                                       "bufferViews",
+                                                       "buffers",
+                                                       "byteLength",
+                                                       "byteOffset",
+                                                       "byteStride",
+                                                       "center",
+                                                       "children",
+                                                       "componentType",
+                                                       "count",
+                                                       "diffuseTexture",
+                                                       "emissiveTexture",
+                                                       "extensions",
+                                                       "extensionsRequired",
+                                                       "fallback",
+                                                       "images",
+                                                       "index",
+                                                       "indices",
+                                                       "material",
+                                                       "materials",
+                                                       "matrix",
+                                                       "mesh",
+                                                       "meshes",
+                                                       "mimeType",
+                                                       "mode",
+                                                       "name",
+                                                       "nodes",
+                                                       "normalized",
+                                                       "offset",
+                                                       "pbrMetallicRoughness",
+                                                       "primitives",
+                                                       "rotation",
+                                                       "scale",
+                                                       "scene",
+                                                       "scenes",
+                                                       "skin",
+                                                       "source",
+                                                       "sparse",
+                                                       "targets",
+                                                       "texCoord",
+                                                       "textures",
+                                                       "translation",
+                                                       "type",
+                                                       "uri",
+                                                       "values",
+                                                       "version"};
 
 std::optional<std::uint32_t> index_of(const JsonView& object, const char* key) {
   const std::optional<JsonView> member = object.find(key);
@@ -58,9 +109,13 @@ GltfComponent component_of(const JsonView& object) {
 }
 
 std::uint32_t components_of(const JsonView& accessor) {
-  constexpr std::array<std::pair<std::string_view, std::uint32_t>, 7> kTypes = {
-      {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9},
-       {"MAT4", 16}}};
+  constexpr std::array<std::pair<std::string_view, std::uint32_t>, 7> kTypes = {{{"SCALAR", 1},
+                                                                                 {"VEC2", 2},
+                                                                                 {"VEC3", 3},
+                                                                                 {"VEC4", 4},
+                                                                                 {"MAT2", 4},
+                                                                                 {"MAT3", 9},
+                                                                                 {"MAT4", 16}}};
   const JsonView type = accessor.at("type");
   for (const auto& [name, components] : kTypes) {
     if (type.text() == name) return components;
@@ -171,7 +226,7 @@ GltfPrimitive parse_primitive(const JsonView& primitive) {
   result.texcoords = parse_texcoords(attributes);
   result.indices = index_of(primitive, "indices");
   result.material = index_of(primitive, "material");
-  result.has_targets = !primitive.elements("targets").empty();
+  result.has_targets = primitive.elements("targets").size() != 0;
   if (const auto draco = extension_of(primitive, "KHR_draco_mesh_compression")) {
     result.draco = parse_draco(*draco);
   }

@@ -54,7 +54,7 @@ struct GltfBufferView {
   std::uint32_t buffer = 0;
   std::uint64_t byte_offset = 0;
   std::uint64_t byte_length = 0;
-  std::uint32_t byte_stride = 0;                ///< 0: elements lie side by side
+  std::uint32_t byte_stride = 0;                 ///< 0: elements lie side by side
   std::optional<std::string> meshopt_extension;  ///< that its data are compressed with
 };
 
@@ -153,9 +153,9 @@ struct GltfModel {
 /// Whether a member of the document is needed: what parse_gltf() looks at.
 bool is_gltf_member(std::string_view key);
 
-/// Throws Error(kInput) for a document that is none of glTF 2.0, whose values are of the wrong kind,
-/// or that requires an extension which changes geometry or texture coordinates in a way unknown
-/// here.
+/// Throws Error(kInput) for a document that is none of glTF 2.0, whose values are of the wrong
+/// kind, or that requires an extension which changes geometry or texture coordinates in a way
+/// unknown here.
 GltfModel parse_gltf(const nlohmann::json& document, const std::string& path);
 
 }  // namespace atlasgauge

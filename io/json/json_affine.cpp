@@ -14,7 +14,8 @@ Affine affine_from(const JsonView& matrix) {
     if (!(std::abs(last - expected) <= kRounding)) {
       matrix.refuse("expected an affine matrix, whose last row is 0 0 0 1");
     }
-    for (std::size_t row = 0; row < 3; ++row) result.m[3 * column + row] = numbers[4 * column + row];
+    for (std::size_t row = 0; row < 3; ++row)
+      result.m[3 * column + row] = numbers[4 * column + row];
   }
   return result;
 }

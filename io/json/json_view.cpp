@@ -30,16 +30,8 @@ JsonView JsonView::at(const char* key) const {
   return *std::move(found);
 }
 
-std::vector<JsonView> JsonView::elements(const char* key) const {
-  const std::optional<JsonView> array = find(key);
-  if (!array) return {};
-  if (!array->value_->is_array()) array->refuse("expected an array");
-  std::vector<JsonView> views;
-  views.reserve(array->value_->size());
-  for (const nlohmann::json& element : *array->value_) {
-    views.push_back({element, *path_, fmt::format("{}[{}]", array->place_, views.size())});
-  }
-  return views;
+JsonElements JsonView::elements(const char* key) const {
+  return JsonElements(find(key));
 }
 
 std::vector<std::string> JsonView::keys() const {
@@ -115,6 +107,18 @@ std::string JsonView::text_or(const char* key, const char* otherwise) const {
 
 void JsonView::refuse(const std::string& text) const {
   throw Error(ErrorKind::kInput, *path_, 0, (place_.empty() ? "the JSON" : place_) + ": " + text);
+}
+
+JsonElements::JsonElements(std::optional<JsonView> array) : array_(std::move(array)) {
+  if (array_ && !array_->value_->is_array()) array_->refuse("expected an array");
+}
+
+std::size_t JsonElements::size() const {
+  return array_ ? array_->value_->size() : 0;
+}
+
+JsonView JsonElements::operator[](std::size_t index) const {
+  return {(*array_->value_)[index], *array_->path_, fmt::format("{}[{}]", array_->place_, index)};
 }
 
 }  // namespace atlasgauge

@@ -9,6 +9,8 @@
 
 namespace atlasgauge {
 
+class JsonElements;
+
 /// A value of a document that someone else wrote, with its place in it for messages:
 /// "accessors[3].count". Every access throws Error(kInput) where the value is of another kind.
 class JsonView {
@@ -21,7 +23,7 @@ class JsonView {
   /// A member that must be there.
   JsonView at(const char* key) const;
   /// The elements of the array that is a member, none without it.
-  std::vector<JsonView> elements(const char* key) const;
+  JsonElements elements(const char* key) const;
   /// The names of the members of an object.
   std::vector<std::string> keys() const;
 
@@ -48,6 +50,39 @@ class JsonView {
   const nlohmann::json* value_;
   const std::string* path_;
   std::string place_;
+
+  friend class JsonElements;
+};
+
+/// The elements of an array, for a loop.
+class JsonElements {
+ public:
+  class Iterator {
+   public:
+    Iterator(const JsonElements& elements, std::size_t index)
+        : elements_(&elements), index_(index) {}
+    JsonView operator*() const { return (*elements_)[index_]; }
+    Iterator& operator++() {
+      ++index_;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return index_ == other.index_; }
+
+   private:
+    const JsonElements* elements_;
+    std::size_t index_;
+  };
+
+  /// Without an array: none.
+  explicit JsonElements(std::optional<JsonView> array);
+
+  std::size_t size() const;
+  JsonView operator[](std::size_t index) const;
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size()}; }
+
+ private:
+  std::optional<JsonView> array_;
 };
 
 }  // namespace atlasgauge
