@@ -64,8 +64,13 @@ struct Texts {
 
 void describe(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("MODEL", options.models,
-                 "the model: .obj, .obj.gz or .obj.zst; several files or patterns are one model")
+                 "the model: OBJ, PLY (both also .gz or .zst), Draco (.drc), glTF (.gltf, .glb), "
+                 "3D Tiles (tileset.json, .b3dm); several files or patterns are one model")
       ->required();
+  app.add_option("--lod", options.lod,
+                 "of 3D Tiles: measure the tiles at depth N below the root, and the leaves above "
+                 "(default: the leaves)")
+      ->type_name("N");
   app.add_option("--json", texts.json, "write the report to FILE; - is standard output")
       ->type_name("FILE");
   app.add_option("--charts", options.charts_path,

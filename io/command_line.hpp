@@ -22,6 +22,7 @@ struct Options {
   std::optional<std::string> maps_dir;
   std::optional<std::string> seams_path;  ///< of a known table format, or PLY
   bool texmetro_seams = false;
+  std::optional<std::uint32_t> lod;  ///< of 3D Tiles: the depth of the tiles to show
   std::optional<ImageSize> texture_size;
   RasterChoice raster = RasterChoice::kScalar;
   std::optional<std::uint64_t> memory_bytes;

@@ -21,6 +21,7 @@
 #include "io/file/output_file.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/image/image_reader.hpp"
+#include "io/open_parts.hpp"
 #include "io/progress_bar.hpp"
 #include "io/texture/texture_slots.hpp"
 #include "io/warnings.hpp"
@@ -57,6 +58,14 @@ MemoryPlan plan_for(const Options& options) {
                      usable_cpus());
 }
 
+/// JSON may take a quarter of the engine's memory, which is not yet in use when it is read.
+OpenParts parts_for(const Options& options, const MemoryPlan& plan) {
+  const PartOptions wanted{.lod = options.lod, .json_bytes = plan.engine_bytes / 4};
+  return [wanted](const std::string& path, Warnings& warnings) {
+    return open_parts(path, wanted, warnings);
+  };
+}
+
 /// OSMesa is loaded here, so that a run does not find out late that it cannot be.
 RasterPlan raster_for(const Options& options) {
   RasterPlan plan;
@@ -83,7 +92,7 @@ void estimate(const Options& options) {
   if (options.json_path) check_writable(*options.json_path);
   const MemoryPlan plan = plan_for(options);
   const std::vector<std::string> inputs = expand_input_paths(options.models);
-  const ModelGuess guess = guess_model(inputs, {.probe = read_image_header});
+  const ModelGuess guess = guess_model(inputs, {read_image_header, parts_for(options, plan)});
   const CostEstimate cost = estimate_cost(guess, plan);
   if (options.json_path) write_file(*options.json_path, json_of(guess, cost, plan).dump(1) + "\n");
   write_text(options, text_of(guess, cost, plan));
@@ -109,7 +118,8 @@ void measure(const Options& options) {
   if (options.maps_dir) make_output_folder(*options.maps_dir);
   const MemoryPlan plan = plan_for(options);
   const std::vector<std::string> inputs = expand_input_paths(options.models);
-  require_resources_for(inputs, plan, options.tmp_dir, {.probe = read_image_header});
+  const OpenParts open = parts_for(options, plan);
+  require_resources_for(inputs, plan, options.tmp_dir, {read_image_header, open});
   const Workers workers(plan.workers);
   MemoryBudget budget(plan.engine_bytes);
   Scratch scratch({options.tmp_dir, plan.block_bytes, plan.resident_bytes, plan.queued_blocks},
@@ -129,6 +139,7 @@ void measure(const Options& options) {
     return resolve_textures(materials, options.texture_size, read_image_header, warnings);
   };
   StreamOptions wanted;
+  wanted.open_parts = open;
   wanted.raster = raster_for(options);
   std::optional<ChartTable> charts;
   if (options.charts_path) {
