@@ -149,6 +149,7 @@ std::string summary_of(const MeshFacts& facts, const Report& report) {
   add_atlas(table);
   add_distributions(table);
   add_defects(table);
+  if (!facts.quantizations.empty()) table.defect("cracks between quantized parts", "cracks");
   return table.take();
 }
 

@@ -11,6 +11,7 @@
 
 #include "bench/draco_cut.hpp"
 #include "bench/site.hpp"
+#include "io/error.hpp"
 #include "io/image/image_module.hpp"
 #include "io/image/image_reader.hpp"
 #include "io/open_parts.hpp"
@@ -147,10 +148,15 @@ TEST_F(DracoSiteTest, ObjFilesAndStreamsMakeOneModel) {
   EXPECT_EQ(report["area"], 2 * one["area"].get<double>());
 }
 
-/// Writes parts as an OBJ whose numbers have seven digits, with materials of a library in order.
-class RoundedObj : public MeshSink {
+/// Writes parts as an OBJ whose numbers have so many digits, with materials of a library in order.
+class ObjOfParts : public MeshSink {
  public:
-  RoundedObj(const fs::path& path, const fs::path& library) : obj_(path) {
+  struct Digits {
+    int position, texcoord;
+  };
+
+  ObjOfParts(const fs::path& path, const fs::path& library, Digits digits)
+      : obj_(path), digits_(digits) {
     Warnings warnings({});
     for (const Material& material : read_mtl(library.string(), warnings)) {
       materials_.push_back(material.name);
@@ -168,9 +174,11 @@ class RoundedObj : public MeshSink {
 
   void add(const MeshBatch& batch) override {
     for (const Position& p : batch.positions) {
-      obj_ << fmt::format("v {:.7g} {:.7g} {:.7g}\n", p.x, p.y, p.z);
+      obj_ << fmt::format("v {0:.{3}g} {1:.{3}g} {2:.{3}g}\n", p.x, p.y, p.z, digits_.position);
     }
-    for (const TexCoord& t : batch.texcoords) obj_ << fmt::format("vt {:.7g} {:.7g}\n", t.u, t.v);
+    for (const TexCoord& t : batch.texcoords) {
+      obj_ << fmt::format("vt {0:.{2}g} {1:.{2}g}\n", t.u, t.v, digits_.texcoord);
+    }
     positions_ += batch.positions.size();
     texcoords_ += batch.texcoords.size();
     for (const FaceRecord& face : batch.faces) {
@@ -185,31 +193,135 @@ class RoundedObj : public MeshSink {
 
  private:
   std::ofstream obj_;
+  Digits digits_;
   std::vector<std::string> materials_;
   std::uint64_t positions_ = 0, texcoords_ = 0, positions_before_ = 0, texcoords_before_ = 0;
 };
 
-/// A tileset and an OBJ that others made of its leaves, with seven digits a number.
-TEST(TileTwinTest, ATilesetRoundedAsItsTwinGivesTheReportOfTheTwin) {
-  show_modules(kImageModuleFile);
-  const std::vector<ReferenceReport> references = reference_reports();
-  const auto twin = std::ranges::find(references, "derived/nasa_tiles_leaves/nasa_leaves.obj",
-                                      &ReferenceReport::name);
-  if (twin == references.end())
-    GTEST_SKIP() << "SKIPPED: no reference reports beside this checkout";
-  const fs::path data = twin->model.parent_path() / "../../nasa_3dtilesrenderer/data";
-  const TempDir dir;
-  {
-    Warnings warnings({});
-    const auto tiles = open_parts((data / "tileset.json").string(), {}, warnings);
-    RoundedObj obj(dir.path() / "nasa_leaves.obj", twin->model.parent_path() / "nasa_leaves.mtl");
-    while (const std::unique_ptr<MeshPart> part = tiles->next()) obj.add_part(*part);
+/// A tileset, and an OBJ that others made of its leaves with seven digits a number, and images.
+class TileTwinTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    show_modules(kImageModuleFile);
+    const std::vector<ReferenceReport> references = reference_reports();
+    const auto found = std::ranges::find(references, "derived/nasa_tiles_leaves/nasa_leaves.obj",
+                                         &ReferenceReport::name);
+    if (found == references.end()) {
+      GTEST_SKIP() << "SKIPPED: no reference reports beside this checkout";
+    }
+    twin_ = found->model;
+    tileset_ = twin_.parent_path() / "../../nasa_3dtilesrenderer/data/tileset.json";
+    config_.probe = read_image_header;
+    config_.open_image = open_image;
+    config_.open_parts = open_any;
   }
+
+  Json measure_tileset() const { return run_pipeline(tileset_.string(), config_).report; }
+  Json measure_twin() const { return run_pipeline(twin_.string(), config_).report; }
+  /// The tileset's leaves, written as an OBJ that uses the images of the twin.
+  Json measure_written(ObjOfParts::Digits digits) const {
+    const TempDir dir;
+    const fs::path path = dir.path() / twin_.filename();
+    Warnings warnings({});
+    {
+      ObjOfParts obj(path, twin_.parent_path() / "nasa_leaves.mtl", digits);
+      const auto tiles = open_parts(tileset_.string(), {}, warnings);
+      while (const std::unique_ptr<MeshPart> part = tiles->next()) obj.add_part(*part);
+    }
+    return run_pipeline(path.string(), config_).report;
+  }
+
+  fs::path twin_, tileset_;
+  PipelineConfig config_;
+};
+
+TEST_F(TileTwinTest, RoundedAsItsTwinTheTilesetGivesTheReportOfTheTwin) {
+  EXPECT_EQ(measure_written({7, 7}).dump(1), measure_twin().dump(1));
+}
+
+TEST_F(TileTwinTest, WrittenExactlyTheTilesetGivesTheReportOfTheTileset) {
+  EXPECT_EQ(without_packing(measure_written({17, 9})).dump(1),
+            without_packing(measure_tileset()).dump(1));
+}
+
+TEST_F(TileTwinTest, WhatRoundingCannotChangeIsEqualAsItIs) {
+  const Json tileset = measure_tileset(), twin = measure_twin();
+  for (const char* key :
+       {"fn", "vn", "en", "en_b", "nonmanif_edge", "nonmanif_vert", "connected_components",
+        "boundary_loops", "euler", "fndup", "fndegen", "vnunref", "oriented", "orientable", "ntex",
+        "faces_unmapped", "faces_untextured", "faces_invalid", "largest_component_fn"}) {
+    EXPECT_EQ(tileset[key], twin[key]) << key;
+  }
+}
+
+/// A real model that is no OBJ, and its faces; 0 where it is a point cloud.
+struct RealInput {
+  const char* path;
+  int faces;
+};
+
+TEST(RealInputsTest, EveryOneIsMeasuredOrRefusedForBeingAPointCloud) {
+  const fs::path data = fs::path(ATLASGAUGE_SOURCE_DIR).parent_path() / "shared/data";
+  if (!fs::exists(data)) GTEST_SKIP() << "SKIPPED: no real models beside this checkout";
+  show_modules(kImageModuleFile);
   PipelineConfig config;
   config.probe = read_image_header;
   config.open_image = open_image;
-  const Json rounded = run_pipeline((dir.path() / "nasa_leaves.obj").string(), config).report;
-  EXPECT_EQ(rounded.dump(1), run_pipeline(twin->model.string(), config).report.dump(1));
+  config.open_parts = open_any;
+  const std::vector<RealInput> inputs = {
+      {"draco/bunny_gltf.drc", 69451},
+      {"draco/car.drc", 1744},
+      {"draco/cube_att.drc", 12},
+      {"draco/cube_att.obj.edgebreaker.cl10.2.2.drc", 12},
+      {"draco/cube_att.obj.edgebreaker.cl4.2.2.drc", 12},
+      {"draco/cube_att.obj.sequential.cl3.2.2.drc", 12},
+      {"draco/cube_att.ply", 12},
+      {"draco/cube_att_sub_o_2.drc", 12},
+      {"draco/cube_att_sub_o_no_metadata.drc", 12},
+      {"draco/cube_pc.drc", 0},
+      {"draco/octagon_preserved.drc", 6},
+      {"draco/pc_color.drc", 0},
+      {"draco/pc_kd_color.drc", 0},
+      {"draco/point_cloud_no_qp.drc", 0},
+      {"draco/test_nm.obj.edgebreaker.0.10.0.drc", 170},
+      {"draco/test_nm.obj.edgebreaker.0.9.1.drc", 170},
+      {"draco/test_nm.obj.edgebreaker.1.0.0.drc", 170},
+      {"draco/test_nm.obj.edgebreaker.1.1.0.drc", 170},
+      {"draco/test_nm.obj.edgebreaker.cl10.2.2.drc", 170},
+      {"draco/test_nm.obj.edgebreaker.cl4.2.2.drc", 170},
+      {"draco/test_nm.obj.sequential.0.10.0.drc", 170},
+      {"draco/test_nm.obj.sequential.0.9.1.drc", 170},
+      {"draco/test_nm.obj.sequential.1.0.0.drc", 170},
+      {"draco/test_nm.obj.sequential.1.1.0.drc", 170},
+      {"draco/test_nm.obj.sequential.cl3.2.2.drc", 170},
+      {"draco/test_nm_quant.0.9.0.drc", 170},
+      {"draco/Box/glTF/Box.gltf", 12},
+      {"draco/Box/glTF_Binary/Box.glb", 12},
+      {"draco/Box/glTF_Binary/Box_Draco.glb", 12},
+      {"draco/BoxMetaDraco/glTF/BoxMetaDraco.gltf", 12},
+      {"loadersgl/3d-tiles/test/data/143.b3dm", 28222},
+      {"loadersgl/gltf/test/data/3d-tiles/tile.glb", 9439},
+      {"loadersgl/tile-converter/test/data/Frankfurt/L5/OF/474_5548_-1_lv5_group_0.osgb_3.b3dm",
+       49427},
+      {"nasa_3dtilesrenderer/data/tileset-add.json", 298357},
+      {"nasa_3dtilesrenderer/data/tileset-broken-root-content.json", 177950},
+      {"nasa_3dtilesrenderer/data/tileset-external-broken.json", 166946},
+      {"nasa_3dtilesrenderer/data/tileset-external.json", 177950},
+      {"nasa_3dtilesrenderer/data/tileset-no-root-content.json", 177950},
+      {"trimesh/BoxTextured.ply", 12},
+      {"trimesh/cube_blender_uv.ply", 12},
+      {"trimesh/fuze.ply", 1000},
+      {"trimesh/fuze_ascii.ply", 1000},
+  };
+  for (const RealInput& input : inputs) {
+    SCOPED_TRACE(input.path);
+    try {
+      EXPECT_EQ(run_pipeline((data / input.path).string(), config).report["fn"], input.faces);
+    } catch (const Error& error) {
+      EXPECT_EQ(input.faces, 0) << error.what();
+      EXPECT_NE(std::string(error.what()).find("point cloud"), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace
