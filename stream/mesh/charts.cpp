@@ -15,40 +15,44 @@ namespace atlasgauge {
 namespace {
 
 /// The part that a face is.
-ChartPart part_of(const Label& chart, const Label& of_class, const FaceFacts& facts,
-                  const AtlasFace& face, std::uint32_t number) {
-  const double area = facts.area_uv();
+ChartPart part_of(const Label& chart, const Label& of_class, const AtlasFace& face, double area_uv,
+                  double area_3d, std::uint32_t number) {
   ChartPart part{};
   part.chart = chart.first();
   part.first_face_and_flags = number | (of_class.parity() ? ChartPart::kFlipped : 0) |
                               (of_class.conflict() ? ChartPart::kConflict : 0);
   part.slot_and_flags = (face.slot() == kNone<SlotId> ? ChartPart::kNoSlot : raw(face.slot())) |
                         (face.has_uv_triangle() ? ChartPart::kUvTriangles : 0) |
-                        (area < 0 ? ChartPart::kNegative : 0) |
-                        (area == 0 ? ChartPart::kNoArea : 0);
+                        (area_uv < 0 ? ChartPart::kNegative : 0) |
+                        (area_uv == 0 ? ChartPart::kNoArea : 0);
   part.faces = 1;
-  part.area_uv = area;
-  part.area_3d_or_length = face.area_3d();
+  part.area_uv = area_uv;
+  part.area_3d_or_length = area_3d;
   if (!face.has_uv_triangle()) return part;
   std::tie(part.low_u, part.high_u) = std::minmax({face.uv(0).u, face.uv(1).u, face.uv(2).u});
   std::tie(part.low_v, part.high_v) = std::minmax({face.uv(0).v, face.uv(1).v, face.uv(2).v});
   return part;
 }
 
-template <class Push>
-void push_faces(const Engine& engine, ChartParts& parts, Push push) {
+/// `areas_3d` may be missing, and count as 0 then.
+template <class Push, class... Areas>
+void push_faces(const Engine& engine, ChartParts& parts, const SlotFrames& frames, Push push,
+                const Areas&... areas_3d) {
   std::vector<ChartRuns> runs(engine.workers.count());
   const auto push_rows = [&](std::size_t worker, std::uint64_t first_face, auto charts,
-                             auto classes, auto facts, auto faces) {
+                             auto classes, auto faces, auto... areas) {
     const auto push_part = [&](const ChartPart& part) { push(worker, part); };
     for (std::size_t i = 0; i < faces.size(); ++i) {
-      if (!facts[i].at_welded_level()) continue;
+      const AtlasFace& face = faces[i];
+      if (!face.at_welded_level()) continue;
       const auto number = static_cast<std::uint32_t>(first_face + i);
-      runs[worker].add(part_of(charts[i], classes[i], facts[i], faces[i], number), push_part);
+      const double area_uv = face.area_uv(frames.of(face.slot()));
+      const double area_3d = (0.0 + ... + areas[i]);
+      runs[worker].add(part_of(charts[i], classes[i], face, area_uv, area_3d, number), push_part);
     }
   };
   visit_rows(engine, push_rows, parts.labels.by_all_edges(), parts.labels.by_manifold_edges(),
-             parts.facts, parts.faces);
+             parts.faces, areas_3d...);
   for (ChartRuns& of_worker : runs) {
     of_worker.end_all([&](const ChartPart& part) { push(0, part); });
   }
@@ -74,17 +78,19 @@ void push_borders(Spill<BorderEdge>& borders, Spill<Label>& charts_of_borders, P
   }
 }
 
-KeyedGroups<ChartPart>::Buckets distribute_parts(const Engine& engine, ChartParts& parts) {
+KeyedGroups<ChartPart>::Buckets distribute_parts(const Engine& engine, ChartParts& parts,
+                                                 const SlotFrames& frames) {
   Spill<Label> charts_of_borders;
   if (!parts.borders.empty()) {
     charts_of_borders = charts_of(engine, parts.borders, parts.labels.by_all_edges());
   }
-  return KeyedGroups<ChartPart>::distribute(engine, parts.facts.size() + parts.borders.size(),
-                                            parts.facts.size(), "distributing faces to charts",
-                                            [&](auto push) {
-                                              push_faces(engine, parts, push);
-                                              push_borders(parts.borders, charts_of_borders, push);
-                                            });
+  return KeyedGroups<ChartPart>::distribute(
+      engine, parts.faces.size() + parts.borders.size(), parts.faces.size(),
+      "distributing faces to charts", [&](auto push) {
+        parts.areas_3d.empty() ? push_faces(engine, parts, frames, push)
+                               : push_faces(engine, parts, frames, push, parts.areas_3d);
+        push_borders(parts.borders, charts_of_borders, push);
+      });
 }
 
 /// Where one worker puts its charts.
@@ -132,7 +138,7 @@ ChartResults group_charts(const Engine& engine, ChartParts parts, const SlotFram
                           bool keep, GroupSinks& sinks,
                           std::vector<std::unique_ptr<SampleStore>>& samples) {
   const std::size_t workers = engine.workers.count();
-  KeyedGroups<ChartPart>::Buckets buckets = distribute_parts(engine, parts);
+  KeyedGroups<ChartPart>::Buckets buckets = distribute_parts(engine, parts, frames);
   const Reservation memory = engine.budget.reserve(
       (samples.size() + 2) * Partition<Sample>::memory_bytes(1, workers, engine.block_bytes()),
       "charts and samples of them");
