@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "measures/base/exact_sum.hpp"
 #include "measures/base/measure.hpp"
 #include "measures/base/statistics.hpp"
+#include "stream/engine/exact_sum.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "measures/base/exact_sum.hpp"
 #include "measures/base/measure.hpp"
+#include "stream/engine/exact_sum.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "measures/base/exact_sum.hpp"
 #include "measures/base/measure.hpp"
 #include "measures/base/statistics.hpp"
 #include "measures/mapping.hpp"
+#include "stream/engine/exact_sum.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -1,6 +1,6 @@
-#include "measures/base/exact_sum.hpp"
 #include "measures/base/measure.hpp"
 #include "measures/mapping.hpp"
+#include "stream/engine/exact_sum.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -1,5 +1,5 @@
-#include "measures/base/exact_sum.hpp"
 #include "measures/base/measure.hpp"
+#include "stream/engine/exact_sum.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -1,10 +1,10 @@
 #include <cmath>
 
-#include "measures/base/exact_sum.hpp"
 #include "measures/base/measure.hpp"
 #include "measures/base/statistics.hpp"
 #include "measures/base/weighted_moments.hpp"
 #include "measures/texture_seams.hpp"
+#include "stream/engine/exact_sum.hpp"
 
 namespace atlasgauge {
 namespace {

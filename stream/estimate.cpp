@@ -48,8 +48,9 @@ constexpr double kUsualTextureSide = 4096;
 
 /// Estimates may be wrong by this factor; only what is beyond it is refused.
 constexpr double kTolerance = 1.5;
-/// Scratch is estimated for faces in random order; those near each other take down to half of it.
-constexpr double kScratchTolerance = 2;
+/// Scratch is estimated for faces in random order; those near each other take
+/// down to two fifths of it.
+constexpr double kScratchTolerance = 2.5;
 
 /// A model of whose text only the beginning is known, all of it vertices, is taken for a closed
 /// surface, with twice as many faces as vertices, an eighth of the texture coordinates doubled at
@@ -176,7 +177,7 @@ std::vector<StageNeed> stage_needs(const ModelGuess& guess, const MemoryPlan& pl
   const double corners = 36 * f;
   // The smallest angle, and where there are UVs distortion and scaling.
   const double samples = f * sizeof(Sample) * (t > 0 ? 3 : 1);
-  const double kept = f * (sizeof(FaceFacts) + sizeof(AtlasFace)) + samples + positions;
+  const double kept = f * (sizeof(FaceLevels) + sizeof(AtlasFace)) + samples + positions;
   const double placed = v * (sizeof(Position) + sizeof(VertexId) + 4);
   const SeamGuess seams(guess);
   const double seam_bytes = seams.edges * sizeof(SeamCandidate);

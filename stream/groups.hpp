@@ -98,7 +98,7 @@ struct Chart {
   bool orientable;  ///< its faces can be flipped to run coherently
   std::uint64_t folds;
   SlotId slot = kNone<SlotId>;
-  double area_3d = 0;            ///< model units squared
+  double area_3d = 0;            ///< model units squared; only where it was asked for
   double area_uv = 0;            ///< sum of the absolute areas of its faces, texels squared
   double perimeter = 0;          ///< of its uv boundary edges, texels; only where it was asked for
   UvBox uv_box{};                ///< of its faces with a UV triangle, UVs as in the file

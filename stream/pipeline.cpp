@@ -27,8 +27,9 @@ namespace {
 struct TriangleOutput {
   std::vector<SampleStore::Writer> samples;
   std::vector<Sample> taken;
-  std::vector<FaceFacts> facts;
+  std::vector<FaceLevels> levels;
   std::vector<AtlasFace> faces;
+  std::vector<double> areas_3d;
   std::vector<float> distortions;
 };
 
@@ -36,8 +37,9 @@ struct TriangleOutput {
 struct TriangleResults {
   std::unique_ptr<EdgeTable> edges;
   std::unique_ptr<StarTable> stars;
-  Spill<FaceFacts> facts;    ///< in face order
+  Spill<FaceLevels> levels;  ///< in face order
   Spill<AtlasFace> faces;    ///< in face order
+  Spill<double> areas_3d;    ///< in face order; empty unless asked for
   Spill<float> distortions;  ///< in face order; empty unless asked for
   std::vector<std::unique_ptr<SampleStore>> samples;
 };
@@ -53,8 +55,9 @@ void take_samples(GroupSink& sink, std::span<const Triangle> triangles, Triangle
 void note_facts(std::span<const Triangle> triangles, const StreamOptions& options,
                 TriangleOutput& output) {
   for (const Triangle& triangle : triangles) {
-    output.facts.emplace_back(triangle);
+    output.levels.push_back(levels_of(triangle));
     output.faces.emplace_back(triangle);
+    if (options.on_chart || options.distortion_of) output.areas_3d.push_back(triangle.area_3d);
     if (options.distortion_of) {
       output.distortions.push_back(static_cast<float>(options.distortion_of(triangle)));
     }
@@ -103,7 +106,7 @@ TriangleResults stream_triangles(const Engine& engine, const StreamOptions& opti
   const Reservation writers_memory = engine.budget.reserve(
       distributions * Partition<Sample>::memory_bytes(1, workers, engine.block_bytes()) +
           8 * engine.block_bytes(),
-      "samples and face facts");
+      "samples and faces");
   TriangleResults results;
   make_tables(engine, options, mesh, weld, frames, sinks, results);
   for (std::size_t i = 0; i < distributions; ++i) {
@@ -113,8 +116,9 @@ TriangleResults stream_triangles(const Engine& engine, const StreamOptions& opti
   for (TriangleOutput& output : outputs) {
     for (auto& store : results.samples) output.samples.emplace_back(*store);
   }
-  SpillWriter<FaceFacts> facts(engine.scratch);
+  SpillWriter<FaceLevels> levels(engine.scratch);
   SpillWriter<AtlasFace> faces(engine.scratch);
+  SpillWriter<double> areas_3d(engine.scratch);
   SpillWriter<float> distortions(engine.scratch);
   TriangleVisitor visitor;
   visitor.transform = [&](std::size_t worker, std::span<const Triangle> triangles) {
@@ -126,11 +130,12 @@ TriangleResults stream_triangles(const Engine& engine, const StreamOptions& opti
     results.stars->add(worker, triangles);
   };
   visitor.commit = [&](std::size_t worker) {
-    append_and_clear(facts, outputs[worker].facts);
+    append_and_clear(levels, outputs[worker].levels);
     append_and_clear(faces, outputs[worker].faces);
+    append_and_clear(areas_3d, outputs[worker].areas_3d);
     append_and_clear(distortions, outputs[worker].distortions);
-    results.edges->pass(facts.size());
-    results.stars->pass(facts.size());
+    results.edges->pass(faces.size());
+    results.stars->pass(faces.size());
   };
   visit_triangles(engine, mesh, weld, slots, frames, engine.budget.free_bytes() / 8 * 7, stage,
                   visitor);
@@ -139,17 +144,18 @@ TriangleResults stream_triangles(const Engine& engine, const StreamOptions& opti
   }
   results.edges->settle();
   results.stars->settle();
-  results.facts = facts.finish();
+  results.levels = levels.finish();
   results.faces = faces.finish();
+  results.areas_3d = areas_3d.finish();
   results.distortions = distortions.finish();
   return results;
 }
 
-void stream_components(const Engine& engine, EdgeResults& edges, Spill<FaceFacts>& facts,
+void stream_components(const Engine& engine, EdgeResults& edges, Spill<FaceLevels>& levels,
                        GroupSinks& sinks) {
-  StageLog::Stage stage(engine.log, "components", facts.size());
-  FaceLabels labels(engine, std::move(edges.raw_links), facts.size(), edges.raw_manifold);
-  group_components(engine, labels, facts, sinks);
+  StageLog::Stage stage(engine.log, "components", levels.size());
+  FaceLabels labels(engine, std::move(edges.raw_links), levels.size(), edges.raw_manifold);
+  group_components(engine, labels, levels, sinks);
 }
 
 std::uint64_t stream_boundary(const Engine& engine, EdgeResults& edges, std::uint64_t vertices,
@@ -167,9 +173,9 @@ struct ChartStage {
 
 ChartStage stream_charts(const Engine& engine, const StreamOptions& options, EdgeResults& edges,
                          TriangleResults& triangles, const SlotFrames& frames, GroupSinks& sinks) {
-  StageLog::Stage stage(engine.log, "charts", triangles.facts.size());
-  FaceLabels labels(engine, std::move(edges.uv_links), triangles.facts.size(), edges.uv_manifold);
-  ChartParts parts{labels, triangles.facts, triangles.faces, std::move(edges.borders)};
+  StageLog::Stage stage(engine.log, "charts", triangles.faces.size());
+  FaceLabels labels(engine, std::move(edges.uv_links), triangles.faces.size(), edges.uv_manifold);
+  ChartParts parts{labels, triangles.faces, triangles.areas_3d, std::move(edges.borders)};
   const bool keep = static_cast<bool>(options.on_chart);
   ChartResults results =
       group_charts(engine, std::move(parts), frames, keep, sinks, triangles.samples);
@@ -264,10 +270,11 @@ MeshFacts stream_model(const Engine& engine, std::span<const std::string> inputs
   triangles.stars.reset();
 
   find_cracks(engine, std::move(edges.open), facts.vertices, mesh.parts, sinks);
-  stream_components(engine, edges, triangles.facts, sinks);
+  stream_components(engine, edges, triangles.levels, sinks);
+  triangles.levels.clear();
   facts.boundary_components = stream_boundary(engine, edges, facts.positions, boundary_vertices);
   ChartStage charts = stream_charts(engine, options, edges, triangles, frames, sinks);
-  triangles.facts.clear();
+  if (!wants_maps) triangles.areas_3d.clear();
   if (!facts.textures.unit_slot) {
     RasterPlan plan = options.raster;
     plan.keep_faces = wants_maps;
@@ -278,7 +285,7 @@ MeshFacts stream_model(const Engine& engine, std::span<const std::string> inputs
   }
   if (wants_maps) {
     facts.atlas = {std::move(charts.of_faces), std::move(triangles.faces),
-                   std::move(triangles.distortions), frames};
+                   std::move(triangles.areas_3d), std::move(triangles.distortions), frames};
   }
   charts.of_faces.clear();
   triangles.faces.clear();

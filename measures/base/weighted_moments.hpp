@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "measures/base/exact_sum.hpp"
+#include "stream/engine/exact_sum.hpp"
 
 namespace atlasgauge {
 

@@ -92,6 +92,9 @@ class PageCache {
     return pages_[set][layout_.in_page(record)];
   }
 
+  /// From disk, so far.
+  std::uint64_t read_bytes() const { return read_bytes_; }
+
  private:
   const T* load(std::uint32_t page, std::size_t set) {
     const Scratch& scratch = *table_->scratch();
@@ -104,6 +107,7 @@ class PageCache {
     const std::size_t end =
         std::min(offset + layout_.page_bytes(), table_->records_in_block(block) * sizeof(T));
     scratch.read(table_->block(block), offset, memory, end - offset);
+    read_bytes_ += end - offset;
     return reinterpret_cast<const T*>(memory);
   }
 
@@ -112,6 +116,7 @@ class PageCache {
   PageTags tags_;
   AlignedBytes memory_;
   std::vector<const T*> pages_;
+  std::uint64_t read_bytes_ = 0;
 };
 
 }  // namespace atlasgauge

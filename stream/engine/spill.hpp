@@ -171,6 +171,12 @@ class SpillReader {
   explicit SpillReader(const Spill<T>& spill) : spill_(&spill) {}
   SpillReader(Spill<T>& spill, Mode mode)
       : spill_(&spill), consumed_(mode == Mode::kConsume ? &spill : nullptr) {}
+  /// From record `first` on; blocks before it may have been freed.
+  SpillReader(const Spill<T>& spill, std::uint64_t first)
+      : spill_(&spill), next_(static_cast<std::size_t>(first / spill.records_per_block())) {
+    const std::uint64_t passed = first % spill.records_per_block();
+    if (passed > 0) rest_ = next_block().subspan(passed);
+  }
 
   /// The next records, up to a block of them, valid until the next call; empty at the end.
   std::span<const T> next_block() {

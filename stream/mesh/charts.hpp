@@ -16,8 +16,8 @@ namespace atlasgauge {
 /// What charts are made of; all but the borders in face order.
 struct ChartParts {
   FaceLabels& labels;  ///< of the uv level
-  Spill<FaceFacts>& facts;
   Spill<AtlasFace>& faces;
+  Spill<double>& areas_3d;    ///< empty where nobody asks for the charts'
   Spill<BorderEdge> borders;  ///< empty where nobody asks for perimeters
 };
 

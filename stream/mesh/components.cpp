@@ -26,15 +26,15 @@ Spill<Link> copy_of(const Engine& engine, Spill<Link>& links) {
   return copy.finish();
 }
 
-/// Labels and facts of the faces, side by side, as runs of each component.
+/// Labels and levels of the faces, side by side, as runs of each component.
 KeyedGroups<ComponentRun>::Buckets distribute_runs(const Engine& engine, FaceLabels& labels,
-                                                   Spill<FaceFacts>& facts) {
+                                                   Spill<FaceLevels>& levels) {
   const auto push_runs = [&](auto push) {
     const auto push_rows = [&](std::size_t worker, std::uint64_t, auto components, auto classes,
                                auto faces) {
       ComponentRun run{0, 0, 0};
       for (std::size_t i = 0; i < faces.size(); ++i) {
-        if (!faces[i].at_raw_level()) continue;
+        if (faces[i] == FaceLevels::kNone) continue;
         if (run.faces > 0 && run.component != components[i].first()) {
           push(worker, std::exchange(run, {}));
         }
@@ -44,9 +44,9 @@ KeyedGroups<ComponentRun>::Buckets distribute_runs(const Engine& engine, FaceLab
       }
       if (run.faces > 0) push(worker, run);
     };
-    visit_rows(engine, push_rows, labels.by_all_edges(), labels.by_manifold_edges(), facts);
+    visit_rows(engine, push_rows, labels.by_all_edges(), labels.by_manifold_edges(), levels);
   };
-  return KeyedGroups<ComponentRun>::distribute(engine, facts.size(), facts.size(),
+  return KeyedGroups<ComponentRun>::distribute(engine, levels.size(), levels.size(),
                                                "distributing components", push_runs);
 }
 
@@ -65,7 +65,7 @@ FaceLabels::FaceLabels(const Engine& engine, Spill<Link> links, std::uint64_t fa
   by_manifold_edges_ = label_nodes(engine, std::move(links), faces, LinkRule::kManifoldOnly);
 }
 
-void group_components(const Engine& engine, FaceLabels& labels, Spill<FaceFacts>& facts,
+void group_components(const Engine& engine, FaceLabels& labels, Spill<FaceLevels>& levels,
                       GroupSinks& sinks) {
   std::vector<GroupBuffer<Component>> outputs;
   for (std::size_t i = 0; i < engine.workers.count(); ++i) {
@@ -85,7 +85,7 @@ void group_components(const Engine& engine, FaceLabels& labels, Spill<FaceFacts>
         while (reader.read(run)) add(component, run);
         outputs[0].push(component);
       });
-  groups.process(distribute_runs(engine, labels, facts));
+  groups.process(distribute_runs(engine, labels, levels));
   for (auto& output : outputs) output.flush();
 }
 

@@ -25,7 +25,7 @@ class FaceLabels {
 };
 
 /// Hands out the connected components at the raw level.
-void group_components(const Engine& engine, FaceLabels& labels, Spill<FaceFacts>& facts,
+void group_components(const Engine& engine, FaceLabels& labels, Spill<FaceLevels>& levels,
                       GroupSinks& sinks);
 
 /// Connected components of the boundary edges over shared vertices. `boundary_vertices` is the

@@ -1,6 +1,7 @@
 #include "stream/mesh/face_stream.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -17,11 +18,15 @@ namespace {
 constexpr std::size_t kItemFaces = 4096;
 /// Faces that are joined at a time: few, so that they stay in the caches.
 constexpr std::size_t kBatchFaces = 128;
+/// Gathering writes and reads about this many bytes a face.
+constexpr std::uint64_t kGatherBytesPerFace = 600;
 
 /// Where the corners' data come from while one worker joins the batches of an item.
 class CornerSource {
  public:
   virtual ~CornerSource() = default;
+  /// Whether to go on with it after so many faces. One worker at a time.
+  virtual bool pays_off(std::uint64_t /*faces*/) const { return true; }
   /// In face order, one worker at a time.
   virtual void produce(std::size_t worker, std::span<const FaceRecord> faces) = 0;
   /// Any worker; `first` is the place in its item of the first of the faces.
@@ -90,17 +95,25 @@ class CachedTables : public CornerSource {
   };
 
   CachedTables(MeshStore& mesh, Weld& weld, std::size_t workers, std::uint64_t memory_bytes)
-      : texcoords_(mesh.texcoords.size()) {
+      : texcoords_(mesh.texcoords.size()), least_bytes_(2 * memory_bytes) {
     const Shares shares(memory_bytes / workers);
     for (std::size_t i = 0; i < workers; ++i) {
       caches_.push_back(std::make_unique<Caches>(mesh, weld, shares));
     }
   }
 
+  /// Not if gathering all faces so far had been cheaper than the pages they read, filling the
+  /// caches apart.
+  bool pays_off(std::uint64_t faces) const override {
+    return read_bytes_.load(std::memory_order_relaxed) <=
+           least_bytes_ + faces * kGatherBytesPerFace;
+  }
+
   void produce(std::size_t, std::span<const FaceRecord>) override {}
 
   void join(std::size_t worker, std::size_t, std::span<JoinedFace> faces) override {
     Caches& caches = *caches_[worker];
+    const std::uint64_t read_before = caches.read_bytes();
     for (JoinedFace& face : faces) {
       for (int k = 0; k < 3; ++k) {
         const VertexId v = face.record.v[k];
@@ -110,6 +123,7 @@ class CachedTables : public CornerSource {
         face.t[k] = raw(t) < texcoords_ ? usable(caches.texcoords->at(raw(t))) : kNoTexCoord;
       }
     }
+    read_bytes_.fetch_add(caches.read_bytes() - read_before, std::memory_order_relaxed);
   }
 
  private:
@@ -121,29 +135,35 @@ class CachedTables : public CornerSource {
       }
       if (weld.found_any()) welded.emplace(weld.welded, shares.welded);
     }
+    std::uint64_t read_bytes() const {
+      return positions.read_bytes() + (texcoords ? texcoords->read_bytes() : 0) +
+             (welded ? welded->read_bytes() : 0);
+    }
     PageCache<Position> positions;
     std::optional<PageCache<TexCoord>> texcoords;
     std::optional<PageCache<VertexId>> welded;
   };
 
   std::uint64_t texcoords_;
+  std::uint64_t least_bytes_;
+  std::atomic<std::uint64_t> read_bytes_ = 0;
   std::vector<std::unique_ptr<Caches>> caches_;
 };
 
-/// Corner data gathered beforehand, in face order.
+/// Corner data gathered beforehand, in face order, of the faces from `first` on.
 class GatheredCorners : public CornerSource {
  public:
-  GatheredCorners(const Engine& engine, MeshStore& mesh, Weld& weld)
+  GatheredCorners(const Engine& engine, MeshStore& mesh, Weld& weld, std::uint64_t first)
       : items_(engine.workers.count()) {
     const auto vertex = [](const FaceRecord& face, int k) { return raw(face.v[k]); };
     const auto texcoord = [](const FaceRecord& face, int k) { return raw(face.t[k]); };
-    positions_ = gather(engine, indices(mesh, vertex), mesh.positions, Position{});
+    positions_ = gather(engine, indices(mesh, first, vertex), mesh.positions, Position{});
     if (weld.found_any()) {
-      welded_ = gather(engine, indices(mesh, vertex), weld.welded, kNone<VertexId>);
+      welded_ = gather(engine, indices(mesh, first, vertex), weld.welded, kNone<VertexId>);
       welded_reader_.emplace(welded_, kConsume<VertexId>);
     }
     if (!mesh.texcoords.empty()) {
-      texcoords_ = gather(engine, indices(mesh, texcoord), mesh.texcoords, kNoTexCoord);
+      texcoords_ = gather(engine, indices(mesh, first, texcoord), mesh.texcoords, kNoTexCoord);
       texcoord_reader_.emplace(texcoords_, kConsume<TexCoord>);
     }
     position_reader_.emplace(positions_, kConsume<Position>);
@@ -178,13 +198,11 @@ class GatheredCorners : public CornerSource {
   static constexpr auto kConsume = SpillReader<T>::Mode::kConsume;
 
   template <class IndexOf>
-  static Spill<std::uint32_t> indices(MeshStore& mesh, IndexOf index_of) {
+  static Spill<std::uint32_t> indices(MeshStore& mesh, std::uint64_t first, IndexOf index_of) {
     SpillWriter<std::uint32_t> indices(*mesh.faces.scratch());
-    SpillReader<FaceRecord> reader(mesh.faces);
-    for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
-      for (const FaceRecord& face : block) {
-        for (int k = 0; k < 3; ++k) indices.push(index_of(face, k));
-      }
+    SpillReader<FaceRecord> reader(mesh.faces, first);
+    for (FaceRecord face; reader.read(face);) {
+      for (int k = 0; k < 3; ++k) indices.push(index_of(face, k));
     }
     return indices.finish();
   }
@@ -205,48 +223,18 @@ class GatheredCorners : public CornerSource {
   std::vector<Corners> items_;
 };
 
-/// Bytes that page caches of one worker's share would load for all faces.
-std::uint64_t cache_load_bytes(MeshStore& mesh, std::uint64_t worker_bytes) {
-  const CachedTables::Shares shares(worker_bytes);
-  const PageLayout<Position> position_pages(mesh.positions, shares.position_records());
-  const PageLayout<TexCoord> texcoord_pages(mesh.texcoords, shares.texcoord_records());
-  PageTags positions(shares.positions / position_pages.page_bytes());
-  PageTags texcoords(shares.texcoords / texcoord_pages.page_bytes());
-  std::uint64_t loaded = 0;
-  SpillReader<FaceRecord> reader(mesh.faces);
-  for (auto block = reader.next_block(); !block.empty(); block = reader.next_block()) {
-    for (const FaceRecord& face : block) {
-      for (int k = 0; k < 3; ++k) {
-        if (!positions.access(position_pages.page_of(raw(face.v[k])))) {
-          loaded += position_pages.page_bytes();
-        }
-        if (raw(face.t[k]) < mesh.texcoords.size() &&
-            !texcoords.access(texcoord_pages.page_of(raw(face.t[k])))) {
-          loaded += texcoord_pages.page_bytes();
-        }
-      }
-    }
-  }
-  return loaded;
+std::unique_ptr<CornerSource> open_tables(const Engine& engine, MeshStore& mesh, Weld& weld,
+                                          std::uint64_t memory_bytes, Reservation& memory) {
+  const std::uint64_t tables = LoadedTables::memory_bytes(mesh, weld);
+  const bool fit = tables <= memory_bytes;
+  memory = engine.budget.reserve(fit ? tables : memory_bytes, "vertex tables");
+  if (fit) return std::make_unique<LoadedTables>(mesh, weld);
+  return std::make_unique<CachedTables>(mesh, weld, engine.workers.count(), memory_bytes);
 }
 
-/// Gathering writes and reads about this many bytes a face.
-constexpr std::uint64_t kGatherBytesPerFace = 600;
-
-std::unique_ptr<CornerSource> choose_source(const Engine& engine, MeshStore& mesh, Weld& weld,
-                                            std::uint64_t memory_bytes, Reservation& memory) {
-  const std::uint64_t tables = LoadedTables::memory_bytes(mesh, weld);
-  if (tables <= memory_bytes) {
-    memory = engine.budget.reserve(tables, "vertex tables");
-    return std::make_unique<LoadedTables>(mesh, weld);
-  }
-  const std::size_t workers = engine.workers.count();
-  const std::uint64_t loads = cache_load_bytes(mesh, memory_bytes / workers);
-  if (loads > kGatherBytesPerFace * mesh.faces.size()) {
-    return std::make_unique<GatheredCorners>(engine, mesh, weld);
-  }
-  memory = engine.budget.reserve(memory_bytes, "vertex page caches");
-  return std::make_unique<CachedTables>(mesh, weld, workers, memory_bytes);
+/// Few in the beginning, so that a source that does not pay off is soon left.
+std::size_t item_faces(std::uint64_t faces_before) {
+  return std::clamp<std::size_t>(faces_before / 64, kBatchFaces, kItemFaces);
 }
 
 struct Item {
@@ -266,15 +254,15 @@ void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld,
                  SpillReader<FaceRecord>::Mode mode, std::uint64_t memory_bytes,
                  StageLog::Stage& stage, const FaceVisitor& visitor) {
   Reservation memory;
-  const std::unique_ptr<CornerSource> corners =
-      choose_source(engine, mesh, weld, memory_bytes, memory);
+  std::unique_ptr<CornerSource> corners = open_tables(engine, mesh, weld, memory_bytes, memory);
   std::vector<Item> items(engine.workers.count());
   SpillReader<FaceRecord> faces(mesh.faces, mode);
   std::uint64_t next_face = 0;
   Workers::Pipeline pipeline;
   pipeline.produce = [&](std::size_t worker) {
+    if (!corners->pays_off(next_face)) return false;
     Item& item = items[worker];
-    item.records.resize(kItemFaces);
+    item.records.resize(item_faces(next_face));
     item.records.resize(faces.read(item.records));
     item.first_face = std::exchange(next_face, next_face + item.records.size());
     corners->produce(worker, item.records);
@@ -294,6 +282,11 @@ void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld,
       stage.progress(items[worker].first_face);
     };
   }
+  engine.workers.run(pipeline);
+  if (next_face == mesh.faces.size()) return;
+  corners.reset();
+  memory.release();
+  corners = std::make_unique<GatheredCorners>(engine, mesh, weld, next_face);
   engine.workers.run(pipeline);
 }
 

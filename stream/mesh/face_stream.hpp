@@ -35,9 +35,9 @@ struct FaceVisitor {
 ///   1. tables that fit are read into memory;
 ///   2. else every worker looks up through page caches: scans are written region by region, and
 ///      hardly miss;
-///   3. where the faces' own index sequence, run through the tags of such a cache beforehand,
-///   misses
-///      too often, the corners are gathered by two sequential distributions instead.
+///   3. when they have read more than gathering would have cost, the corners of the other faces are
+///      gathered by two sequential distributions instead. So all costs at most twice what
+///      gathering alone does.
 /// `mode` says whether the faces are consumed.
 void visit_faces(const Engine& engine, MeshStore& mesh, Weld& weld,
                  SpillReader<FaceRecord>::Mode mode, std::uint64_t memory_bytes,

@@ -1,11 +1,6 @@
 #pragma once
 
-#include <array>
-#include <bit>
-#include <cmath>
 #include <cstdint>
-#include <limits>
-#include <type_traits>
 
 #include "io/ids.hpp"
 #include "io/mesh_batch.hpp"
@@ -16,35 +11,23 @@
 
 namespace atlasgauge {
 
-/// What later stages ask of a face: the levels it takes part in, and its signed UV area in texels.
-/// Eight bytes: the two kinds without an area are NaNs that differ in sign.
-class FaceFacts {
- public:
-  FaceFacts() = default;
-  explicit FaceFacts(const Triangle& triangle)
-      : bits_(triangle.at_welded_level() ? triangle.area_uv
-              : triangle.at_raw_level()  ? kRawOnly
-                                         : -kRawOnly) {}
+/// The levels that a face takes part in, in face order.
+enum class FaceLevels : std::uint8_t { kNone, kRaw, kRawAndWelded };
 
-  bool at_raw_level() const { return !std::isnan(bits_) || !std::signbit(bits_); }
-  bool at_welded_level() const { return !std::isnan(bits_); }
-  double area_uv() const { return bits_; }
+inline FaceLevels levels_of(const Triangle& triangle) {
+  if (triangle.at_welded_level()) return FaceLevels::kRawAndWelded;
+  return triangle.at_raw_level() ? FaceLevels::kRaw : FaceLevels::kNone;
+}
 
- private:
-  static constexpr double kRawOnly = std::numeric_limits<double>::quiet_NaN();
-  double bits_ = 0;
-};
-
-/// A face in the atlas, in face order: what charts and raster ask for. 36 bytes.
+/// A face in the atlas, in face order: what charts and raster ask for.
 class AtlasFace {
  public:
   AtlasFace() = default;
   explicit AtlasFace(const Triangle& triangle)
       : uv_{triangle.t[0], triangle.t[1], triangle.t[2]},
-        bits_((raw(triangle.slot) & kSlotMask) |
+        bits_((raw(triangle.slot) & kSlotMask) | (triangle.at_welded_level() ? kWelded : 0) |
               (triangle.at_welded_level() && triangle.has_uv_triangle ? kUvTriangle : 0) |
-              (triangle.uv_far ? kFar : 0)),
-        area_3d_(std::bit_cast<std::array<std::uint32_t, 2>>(triangle.area_3d)) {}
+              (triangle.uv_far ? kFar : 0)) {}
 
   const TexCoord& uv(int corner) const { return uv_[corner]; }
   const TexCoord (&uv() const)[3] { return uv_; }
@@ -52,21 +35,26 @@ class AtlasFace {
     const std::uint32_t slot = bits_ & kSlotMask;
     return slot == kSlotMask ? kNone<SlotId> : SlotId{slot};
   }
+  bool at_welded_level() const { return (bits_ & kWelded) != 0; }
   /// At the welded level, with three finite UVs, on a slot with a size.
   bool has_uv_triangle() const { return (bits_ & kUvTriangle) != 0; }
   bool is_drawn() const { return has_uv_triangle() && (bits_ & kFar) == 0; }
-  double area_3d() const { return std::bit_cast<double>(area_3d_); }
+  /// Signed, texels squared; 0 without a UV triangle.
+  double area_uv(const SlotFrame& frame) const {
+    if (!has_uv_triangle()) return 0;
+    return signed_area(frame.texel(uv_[0]), frame.texel(uv_[1]), frame.texel(uv_[2]));
+  }
 
  private:
   static constexpr std::uint32_t kUvTriangle = 1U << 31;
   static constexpr std::uint32_t kFar = 1U << 30;
-  static constexpr std::uint32_t kSlotMask = kFar - 1;
+  static constexpr std::uint32_t kWelded = 1U << 29;
+  static constexpr std::uint32_t kSlotMask = kWelded - 1;
 
   TexCoord uv_[3];
   std::uint32_t bits_ = 0;
-  std::array<std::uint32_t, 2> area_3d_{};  // in halves, which need no padding
 };
-static_assert(sizeof(AtlasFace) == 36);
+static_assert(sizeof(AtlasFace) == 28);
 
 /// A uv boundary edge with a length, and the face it bounds.
 struct BorderEdge {

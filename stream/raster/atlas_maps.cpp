@@ -39,11 +39,10 @@ struct MapTriangle {
   std::uint32_t key() const { return triangle.bin; }
 };
 
-FaceLook look_of(std::uint32_t number, const AtlasFace& face, float distortion,
+FaceLook look_of(std::uint32_t number, const AtlasFace& face, double area_3d, float distortion,
                  const SlotFrame& frame, double scaling_unit) {
-  const double area_uv =
-      signed_area(frame.texel(face.uv(0)), frame.texel(face.uv(1)), frame.texel(face.uv(2)));
-  const double scaling = std::abs(area_uv) / face.area_3d() / scaling_unit;
+  const double area_uv = face.area_uv(frame);
+  const double scaling = std::abs(area_uv) / area_3d / scaling_unit;
   FaceLook look{number, 0, distortion, 0};
   if (std::isfinite(scaling)) look.scaling = static_cast<float>(scaling);
   if (area_uv != 0) look.sign = area_uv > 0 ? 1.0F : -1.0F;
@@ -216,16 +215,19 @@ KeyedGroups<MapTriangle>::Buckets distribute_to_slots(const Engine& engine, Atla
   const auto push_faces = [&](auto push) {
     SpillReader<Label> charts(atlas.charts, SpillReader<Label>::Mode::kConsume);
     SpillReader<AtlasFace> faces(atlas.faces, SpillReader<AtlasFace>::Mode::kConsume);
+    SpillReader<double> areas_3d(atlas.areas_3d, SpillReader<double>::Mode::kConsume);
     SpillReader<float> distortions(atlas.distortions, SpillReader<float>::Mode::kConsume);
     Label chart;
     AtlasFace face;
+    double area_3d = 0;
     float distortion = 0;
-    for (std::uint32_t number = 0;
-         charts.read(chart) && faces.read(face) && distortions.read(distortion); ++number) {
+    for (std::uint32_t number = 0; charts.read(chart) && faces.read(face) &&
+                                   areas_3d.read(area_3d) && distortions.read(distortion);
+         ++number) {
       if (!face.is_drawn()) continue;
       const SlotFrame& frame = atlas.frames.of(face.slot());
       push(0, {{raw(face.slot()), chart.first(), {face.uv(0), face.uv(1), face.uv(2)}},
-               look_of(number, face, distortion, frame, scaling_unit)});
+               look_of(number, face, area_3d, distortion, frame, scaling_unit)});
     }
   };
   return KeyedGroups<MapTriangle>::distribute(engine, atlas.faces.size(), atlas.frames.all().size(),

@@ -13,6 +13,7 @@ namespace atlasgauge {
 struct AtlasStore {
   Spill<Label> charts;
   Spill<AtlasFace> faces;
+  Spill<double> areas_3d;    ///< model units squared
   Spill<float> distortions;  ///< quasi-conformal; 0 where a face has none
   SlotFrames frames;
 };

@@ -91,6 +91,7 @@ TEST(PageCacheReadsTest, NeighboursAreReadOnce) {
     for (std::uint32_t i = 0; i < 5120; ++i) cache.at(i);
   }
   EXPECT_EQ(engine.scratch.read_bytes(), 10 * 12288U);
+  EXPECT_EQ(cache.read_bytes(), 10 * 12288U);
 }
 
 TEST(PageCacheReadsTest, ResidentBlocksAreReadInPlace) {
@@ -99,6 +100,7 @@ TEST(PageCacheReadsTest, ResidentBlocksAreReadInPlace) {
   PageCache<Pebble> cache(table, 12288);
   for (std::uint32_t i = 0; i < 5120; i += 100) cache.at(i);
   EXPECT_EQ(engine.scratch.read_bytes(), 0U);
+  EXPECT_EQ(cache.read_bytes(), 0U);
 }
 
 }  // namespace

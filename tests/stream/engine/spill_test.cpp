@@ -123,6 +123,29 @@ TEST_P(SpillTest, ReadFillsAsFarAsRecordsLast) {
   EXPECT_EQ(reader.read(to), 0U);
 }
 
+TEST_P(SpillTest, ReaderCanStartAnywhere) {
+  const Spill<Pebble> spill = spill_of(engine_, pebbles(400));
+  for (const std::uint64_t first : {0, 1, 169, 170, 171, 339, 340, 399, 400}) {
+    SpillReader<Pebble> reader(spill, first);
+    Pebble pebble{};
+    for (std::uint64_t i = first; i < 400; ++i) {
+      ASSERT_TRUE(reader.read(pebble));
+      ASSERT_EQ(pebble.number, i);
+    }
+    EXPECT_FALSE(reader.read(pebble));
+  }
+}
+
+TEST_P(SpillTest, ReaderCanStartBehindFreedBlocks) {
+  Spill<Pebble> spill = spill_of(engine_, pebbles(400));
+  SpillReader<Pebble> first(spill, SpillReader<Pebble>::Mode::kConsume);
+  std::vector<Pebble> some(200);
+  first.read(some);
+  Pebble pebble{};
+  ASSERT_TRUE(SpillReader<Pebble>(spill, 200).read(pebble));
+  EXPECT_EQ(pebble.number, 200U);
+}
+
 TEST_P(SpillTest, BlocksCanBeLoadedInAnyOrder) {
   const Spill<Pebble> spill = spill_of(engine_, pebbles(500));
   BlockBuffer buffer;

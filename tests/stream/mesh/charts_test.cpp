@@ -193,6 +193,25 @@ TEST(ChartsTest, CancellingAreasAreNotNull) {
   EXPECT_EQ(atlas.charts[0].folds, 1U);
 }
 
+// Two charts without area whose faces take turns.
+TEST(ChartsTest, NullFacesAreThoseOfTheChart) {
+  SmallMesh mesh;
+  for (const std::uint32_t first : {0U, 4U}) {
+    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
+      mesh.vertex(x + first, y);
+      mesh.uv(static_cast<float>(x) + static_cast<float>(first),
+              first == 0 ? 0 : 0.5F * static_cast<float>(y));
+    }
+  }
+  mesh.face({0, 1, 2});
+  mesh.face({4, 5, 6});
+  mesh.face({1, 3, 2});
+  mesh.face({5, 7, 6});
+  const Atlas atlas = atlas_of(mesh);
+  ASSERT_EQ(atlas.charts.size(), 2U);
+  EXPECT_EQ(atlas.null_faces, (FaceList{0, 2}));
+}
+
 TEST(ChartsTest, MoebiusChartIsNotOrientableAndKeepsItsFaces) {
   SmallMesh mesh = moebius_strip(3);
   for (const TexCoord& t : {TexCoord{0, 0}, {0, 1}, {0.5F, 0}, {0.5F, 1}, {1, 0}, {1, 1}}) {
@@ -302,6 +321,32 @@ TEST_P(ChartsBudgetTest, LargeNullChartComesWithAllItsFaces) {
   const Atlas atlas = atlas_of(mesh, options());
   ASSERT_EQ(atlas.charts.size(), 1U);
   EXPECT_TRUE(atlas.charts[0].null);
+  ASSERT_EQ(atlas.null_faces.size(), mesh.faces.size());
+  EXPECT_EQ(atlas.null_faces.back(), mesh.faces.size() - 1);
+}
+
+// Every face is a part of its own, so the group of a chart is larger than the smaller budget.
+TEST_P(ChartsBudgetTest, LargeNullChartsThatTakeTurns) {
+  SmallMesh mesh = grid_mesh(100, 100);
+  for (TexCoord& t : mesh.texcoords) t.v = 0;
+  const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+  for (std::uint32_t i = 0; i < vertices; ++i) {
+    const Position at = mesh.positions[i];
+    mesh.vertex(at.x, at.y, at.z + 1);
+    mesh.uv(mesh.texcoords[i].u, 1);
+  }
+  std::vector<FaceRecord> faces;
+  for (const FaceRecord& face : mesh.faces) {
+    faces.push_back(face);
+    faces.push_back(face);
+    for (VertexId& v : faces.back().v) v = VertexId{raw(v) + vertices};
+    for (TexCoordId& t : faces.back().t) t = TexCoordId{raw(t) + vertices};
+  }
+  mesh.faces = std::move(faces);
+  const Atlas atlas = atlas_of(mesh, options());
+  ASSERT_EQ(atlas.charts.size(), 2U);
+  EXPECT_EQ(atlas.charts[1].faces, 2U * 99 * 99);
+  EXPECT_EQ(atlas.charts[1].area_3d, 99.0 * 99.0);
   ASSERT_EQ(atlas.null_faces.size(), mesh.faces.size());
   EXPECT_EQ(atlas.null_faces.back(), mesh.faces.size() - 1);
 }

@@ -21,8 +21,8 @@ SmallMesh large_grid() {
   return grid_mesh(200, 200);
 }
 
-void shuffle_faces(SmallMesh& mesh) {
-  std::shuffle(mesh.faces.begin(), mesh.faces.end(), std::mt19937(1));
+void shuffle_faces(SmallMesh& mesh, std::ptrdiff_t first = 0) {
+  std::shuffle(mesh.faces.begin() + first, mesh.faces.end(), std::mt19937(1));
 }
 
 /// Every third face has a corner without UV, or with one that is not finite.
@@ -44,7 +44,8 @@ bool same(const TexCoord& a, const TexCoord& b) {
 
 /// Checks every face where it is handed out, and that commit comes in face order.
 void expect_joined(TestEngine& engine, const SmallMesh& small, std::uint64_t memory_bytes,
-                   bool first_row_twice = false) {
+                   bool first_row_twice = false,
+                   SpillReader<FaceRecord>::Mode mode = SpillReader<FaceRecord>::Mode::kKeep) {
   MeshStore mesh = small.store(engine);
   Weld weld = weld_vertices(engine, mesh);
   StageLog::Stage stage(engine.log, "faces");
@@ -76,8 +77,7 @@ void expect_joined(TestEngine& engine, const SmallMesh& small, std::uint64_t mem
     EXPECT_EQ(first[worker], committed);
     committed += std::exchange(count[worker], 0);
   };
-  visit_faces(engine, mesh, weld, SpillReader<FaceRecord>::Mode::kKeep, memory_bytes, stage,
-              visitor);
+  visit_faces(engine, mesh, weld, mode, memory_bytes, stage, visitor);
   EXPECT_EQ(committed, small.faces.size());
   EXPECT_EQ(wrong, 0U);
 }
@@ -109,6 +109,13 @@ TEST_P(FaceStreamTest, GatheredCornersForScatteredIndices) {
   shuffle_faces(mesh_);
   TestEngine engine(options(GetParam() * (200 << 10)));
   expect_joined(engine, mesh_, GetParam() * (100 << 10));
+}
+
+TEST_P(FaceStreamTest, CachesAreLeftInTheMiddle) {
+  shuffle_faces(mesh_, 40000);
+  TestEngine engine(options(GetParam() * (600 << 10)));
+  expect_joined(engine, mesh_, GetParam() * (300 << 10), false,
+                SpillReader<FaceRecord>::Mode::kConsume);
 }
 
 TEST_P(FaceStreamTest, WeldedVerticesByEveryWay) {
@@ -151,6 +158,20 @@ TEST(FaceStreamWaysTest, NeighbouringFacesAreReadNotGathered) {
   TestEngine engine({.budget_bytes = 600 << 10, .workers = 1});
   expect_joined(engine, large_grid(), 300 << 10);
   EXPECT_LT(engine.scratch.written_bytes(), 8U << 20);
+}
+
+// Of the 79202 faces, those that the caches served are not gathered.
+TEST(FaceStreamWaysTest, OnlyFacesFromTheMiddleOnAreGathered) {
+  std::uint64_t written[2];
+  for (const int way : {0, 1}) {
+    SmallMesh mesh = large_grid();
+    shuffle_faces(mesh, way * 40000);
+    TestEngine engine({.budget_bytes = 600 << 10, .workers = 1});
+    expect_joined(engine, mesh, 300 << 10);
+    EXPECT_LT(engine.scratch.read_bytes(), 2U * 79202 * 600);
+    written[way] = engine.scratch.written_bytes();
+  }
+  EXPECT_LT(written[1], written[0] / 3 * 2);
 }
 
 TEST(FaceStreamErrorTest, ErrorOfAVisitorIsThrown) {

@@ -98,8 +98,8 @@ class Stages {
   }
 
   void run_components() {
-    FaceLabels labels(engine_, std::move(edges.raw_links), facts.size(), edges.raw_manifold);
-    group_components(engine_, labels, facts, groups);
+    FaceLabels labels(engine_, std::move(edges.raw_links), faces.size(), edges.raw_manifold);
+    group_components(engine_, labels, levels, groups);
   }
 
   std::uint64_t run_boundary(std::uint64_t boundary_vertices) {
@@ -108,8 +108,8 @@ class Stages {
   }
 
   Spill<FaceId> run_charts() {
-    FaceLabels labels(engine_, std::move(edges.uv_links), facts.size(), edges.uv_manifold);
-    ChartParts parts{labels, facts, faces, std::move(edges.borders)};
+    FaceLabels labels(engine_, std::move(edges.uv_links), faces.size(), edges.uv_manifold);
+    ChartParts parts{labels, faces, areas_3d, std::move(edges.borders)};
     std::vector<std::unique_ptr<SampleStore>> no_samples;
     ChartResults results =
         group_charts(engine_, std::move(parts), frames, true, groups, no_samples);
@@ -121,7 +121,7 @@ class Stages {
   }
 
   Spill<SeamCandidate> run_seams(Spill<FaceId> null_faces) {
-    return drop_null_charts(engine_, std::move(edges.seams), std::move(null_faces), facts.size());
+    return drop_null_charts(engine_, std::move(edges.seams), std::move(null_faces), faces.size());
   }
 
  private:
@@ -142,8 +142,9 @@ class Stages {
   Weld weld;
   SlotFrames frames;
   std::vector<Triangle> triangles;  ///< in face order
-  Spill<FaceFacts> facts;
+  Spill<FaceLevels> levels;
   Spill<AtlasFace> faces;
+  Spill<double> areas_3d;
   std::vector<Chart> kept_charts;
   Spill<Label> chart_labels;
   GroupCollector groups;
@@ -153,8 +154,9 @@ class Stages {
   void stream_triangles(const TextureSlots& slots) {
     StageLog::Stage stage(engine_.log, "triangles");
     std::vector<std::vector<Triangle>> batches(engine_.workers.count());
-    SpillWriter<FaceFacts> writer(engine_.scratch);
+    SpillWriter<FaceLevels> level_writer(engine_.scratch);
     SpillWriter<AtlasFace> face_writer(engine_.scratch);
+    SpillWriter<double> area_writer(engine_.scratch);
     TriangleVisitor visitor;
     visitor.transform = [&](std::size_t worker, std::span<const Triangle> some) {
       batches[worker].insert(batches[worker].end(), some.begin(), some.end());
@@ -162,15 +164,17 @@ class Stages {
     visitor.commit = [&](std::size_t worker) {
       for (const Triangle& triangle : batches[worker]) {
         triangles.push_back(triangle);
-        writer.push(FaceFacts(triangle));
+        level_writer.push(levels_of(triangle));
         face_writer.push(AtlasFace(triangle));
+        area_writer.push(triangle.area_3d);
       }
       batches[worker].clear();
     };
     visit_triangles(engine_, mesh, weld, slots, frames, engine_.budget.free_bytes() / 2, stage,
                     visitor);
-    facts = writer.finish();
+    levels = level_writer.finish();
     faces = face_writer.finish();
+    areas_3d = area_writer.finish();
   }
 };
 

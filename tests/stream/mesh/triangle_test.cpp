@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 #include "stream/mesh/records.hpp"
 
@@ -53,31 +54,48 @@ TEST(SlotFramesTest, NoSlotHasNoSize) {
   EXPECT_FALSE(frames.of(kNone<SlotId>).has_size);
 }
 
-Triangle of_kind(FaceKind kind, double area_uv) {
+Triangle of_kind(FaceKind kind) {
   Triangle triangle{};
   triangle.kind = kind;
-  triangle.area_uv = area_uv;
+  triangle.slot = SlotId{7};
+  triangle.has_uv_triangle = true;
+  triangle.t[1] = {0.5F, 0};
+  triangle.t[2] = {0, 0.25F};
   return triangle;
 }
 
-TEST(FaceFactsTest, WholeFaceKeepsItsSignedArea) {
-  for (const double area : {0.0, 2.5, -2.5, 1e300}) {
-    const FaceFacts facts(of_kind(FaceKind::kWhole, area));
-    EXPECT_TRUE(facts.at_raw_level());
-    EXPECT_TRUE(facts.at_welded_level());
-    EXPECT_EQ(facts.area_uv(), area);
-  }
+TEST(FaceLevelsTest, AreThoseOfTheKind) {
+  EXPECT_EQ(levels_of(of_kind(FaceKind::kWhole)), FaceLevels::kRawAndWelded);
+  EXPECT_EQ(levels_of(of_kind(FaceKind::kWeldedDegenerate)), FaceLevels::kRaw);
+  EXPECT_EQ(levels_of(of_kind(FaceKind::kNonFinite)), FaceLevels::kNone);
+  EXPECT_EQ(levels_of(of_kind(FaceKind::kDegenerate)), FaceLevels::kNone);
 }
 
-TEST(FaceFactsTest, OtherKindsKeepTheirLevels) {
-  const FaceFacts welded_degenerate(of_kind(FaceKind::kWeldedDegenerate, 1));
-  EXPECT_TRUE(welded_degenerate.at_raw_level());
-  EXPECT_FALSE(welded_degenerate.at_welded_level());
-  for (const FaceKind kind : {FaceKind::kNonFinite, FaceKind::kDegenerate}) {
-    const FaceFacts facts(of_kind(kind, 1));
-    EXPECT_FALSE(facts.at_raw_level());
-    EXPECT_FALSE(facts.at_welded_level());
-  }
+TEST(AtlasFaceTest, AreaIsThatOnTheSlot) {
+  SlotFrame frame;
+  frame.width = 100;
+  frame.height = 40;
+  Triangle triangle = of_kind(FaceKind::kWhole);
+  EXPECT_EQ(AtlasFace(triangle).area_uv(frame), 250);
+  std::swap(triangle.t[1], triangle.t[2]);
+  EXPECT_EQ(AtlasFace(triangle).area_uv(frame), -250);
+  triangle.has_uv_triangle = false;
+  EXPECT_EQ(AtlasFace(triangle).area_uv(frame), 0);
+}
+
+TEST(AtlasFaceTest, FlagsAndSlotShareTheBits) {
+  Triangle triangle = of_kind(FaceKind::kWhole);
+  EXPECT_TRUE(AtlasFace(triangle).at_welded_level());
+  EXPECT_TRUE(AtlasFace(triangle).is_drawn());
+  EXPECT_EQ(AtlasFace(triangle).slot(), SlotId{7});
+  triangle.uv_far = true;
+  EXPECT_TRUE(AtlasFace(triangle).has_uv_triangle());
+  EXPECT_FALSE(AtlasFace(triangle).is_drawn());
+  triangle.slot = kNone<SlotId>;
+  EXPECT_EQ(AtlasFace(triangle).slot(), kNone<SlotId>);
+  const AtlasFace degenerate(of_kind(FaceKind::kWeldedDegenerate));
+  EXPECT_FALSE(degenerate.at_welded_level());
+  EXPECT_FALSE(degenerate.has_uv_triangle());
 }
 
 TEST(HalfEdgeTest, FlagsAndSlotShareTheBits) {

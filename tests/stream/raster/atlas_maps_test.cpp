@@ -25,13 +25,11 @@
 namespace atlasgauge {
 namespace {
 
-/// A face with area 1/2 in 3D.
 AtlasFace face_at(const std::array<TexCoord, 3>& uv, std::uint32_t slot) {
   Triangle triangle{};
   triangle.kind = FaceKind::kWhole;
   triangle.slot = SlotId{slot};
   triangle.has_uv_triangle = true;
-  triangle.area_3d = 0.5;
   for (std::size_t k = 0; k < 3; ++k) triangle.t[k] = uv[k];
   return AtlasFace(triangle);
 }
@@ -64,8 +62,9 @@ struct Atlas {
   AtlasStore store(TestEngine& engine) const {
     std::vector<Label> labels;
     for (const std::uint32_t chart : charts) labels.emplace_back(chart, false, false);
-    return {spill_of(engine, labels), spill_of(engine, faces), spill_of(engine, distortions),
-            frames()};
+    const std::vector<double> areas_3d(faces.size(), 0.5);
+    return {spill_of(engine, labels), spill_of(engine, faces), spill_of(engine, areas_3d),
+            spill_of(engine, distortions), frames()};
   }
 
   TextureSlots slots() const {

@@ -1,4 +1,4 @@
-#include "measures/base/exact_sum.hpp"
+#include "stream/engine/exact_sum.hpp"
 
 #include <gtest/gtest.h>
 
