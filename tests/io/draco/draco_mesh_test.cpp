@@ -268,6 +268,23 @@ TEST(DracoMesh, RefusesEveryTruncationOfAStream) {
   }
 }
 
+TEST(DracoMesh, TakesNoMoreMemoryForAnyHugeNumberInAStream) {
+  int claims = 0;
+  for (const DracoEncoding& encoding : {DracoEncoding{true, 0, 11, 10}, {false, 0, 11, 10}}) {
+    const std::string stream = encode_draco(*DracoGrid{.lie_apart = true}.mesh(), encoding);
+    for (std::size_t i = 0; i + 4 <= stream.size(); ++i) {
+      std::string damaged = stream;
+      damaged.replace(i, 4, "\xff\xff\xff\x7f");
+      try {
+        decode(damaged);
+      } catch (const Error& error) {
+        claims += std::string(error.what()).find("takes more than") != std::string::npos;
+      }
+    }
+  }
+  EXPECT_GT(claims, 0) << "the number of orientations is one";
+}
+
 TEST(DracoMesh, RefusesAttributesThatTheHeaderHasNoRoomFor) {
   const DracoGrid grid{.cells = 100, .further_attributes = 6};
   const std::string stream = encode_draco(*grid.mesh(), {false, 5, 0, 0});
