@@ -42,6 +42,8 @@ class DracoBytes {
     return value;
   }
 
+  std::uint64_t left() const { return rest_.size(); }
+
   std::uint8_t byte() { return static_cast<std::uint8_t>(fixed(1)); }
 
   /// Seven bits a byte, lowest first. Bits beyond the 32nd are lost, as in Draco itself.
@@ -118,11 +120,13 @@ class HeaderParser {
   }
 
   void skip_geometry_metadata() {
+    const std::uint64_t left_before = bytes_.left();
     for (std::uint32_t attributes = bytes_.varint(); attributes > 0; --attributes) {
       bytes_.varint();
       skip_metadata();
     }
     skip_metadata();
+    metadata_bytes_ = left_before - bytes_.left();
   }
 
   /// Each node is: entries, number of nodes below it, these nodes with a name each. So nodes come
@@ -180,7 +184,8 @@ class HeaderParser {
 
   void set_need(const draco_need::Need& need) {
     header_.attribute_bytes = need.attribute_bytes;
-    header_.decoding_bytes = need.connectivity_bytes + need.attribute_bytes;
+    header_.decoding_bytes = need.connectivity_bytes + need.attribute_bytes +
+                             metadata_bytes_ * draco_need::kBytesPerMetadataByte;
   }
 
   void check_counts() const {
@@ -217,6 +222,7 @@ class HeaderParser {
   std::uint64_t stream_bytes_;
   const std::string& path_;
   DracoHeader header_;
+  std::uint64_t metadata_bytes_ = 0;
 };
 
 }  // namespace

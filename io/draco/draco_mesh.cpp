@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
+#include "io/draco/allocation_limit.hpp"
 #include "io/draco/draco_materials.hpp"
 #include "io/error.hpp"
 
@@ -142,7 +144,7 @@ class DracoMesh::Decoded {
     BoundedDecoder<Decoder> decoder(header);
     draco::DecoderBuffer buffer;
     buffer.Init(stream.data(), stream.size());
-    const draco::Status status = run(decoder, buffer);
+    const draco::Status status = run(decoder, buffer, header);
     if (decoder.refused_bytes() != 0)
       refuse_attributes(decoder.refused_bytes(), header.attribute_bytes);
     if (!status.ok()) {
@@ -154,15 +156,27 @@ class DracoMesh::Decoded {
     choose(attributes, decoder);
   }
 
-  draco::Status run(draco::MeshDecoder& decoder, draco::DecoderBuffer& buffer) {
+  /// Draco believes some numbers of a stream before it sees that they cannot be, such as how many
+  /// orientations the prediction of texture coordinates has: up to 256 MiB of them.
+  draco::Status run(draco::MeshDecoder& decoder, draco::DecoderBuffer& buffer,
+                    const DracoHeader& header) {
+    const AllocationLimit limit(header.decoding_bytes);
     try {
       const draco::DecoderOptions options;
       return decoder.Decode(options, &buffer, &mesh_);
     } catch (const std::length_error&) {
-      refuse(
-          "found a Draco stream with a length that nothing can have; the file is damaged, write "
-          "it anew");
+      refuse_claims(header);
+    } catch (const std::bad_alloc&) {
+      if (limit.was_reached()) refuse_claims(header);
+      throw;
     }
+  }
+
+  [[noreturn]] void refuse_claims(const DracoHeader& header) const {
+    refuse(
+        fmt::format("found a Draco stream that takes more than {} bytes to decode, and one of "
+                    "{} faces and {} points takes less; the file is damaged, write it anew",
+                    header.decoding_bytes, header.counts.faces, header.counts.positions));
   }
 
   [[noreturn]] void refuse_attributes(std::uint64_t bytes, std::uint64_t room) const {

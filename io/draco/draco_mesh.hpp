@@ -50,8 +50,8 @@ std::vector<std::string> read_draco_material_names(std::string_view begin,
 /// Which attributes of a stream to take: by their unique ids, as KHR_draco_mesh_compression names
 /// them, or the first of their kind.
 struct DracoAttributes {
-  std::optional<std::uint32_t> position_id;
-  std::optional<std::uint32_t> texcoord_id;
+  std::optional<std::uint32_t> position_id{};
+  std::optional<std::uint32_t> texcoord_id{};
   bool by_kind = true;  ///< for ids that are not given: the first of the kind, else none
 };
 

@@ -29,6 +29,9 @@ inline constexpr std::uint64_t kUncountedAttributes = 3;
 /// Streams may have more attributes as long as they are small.
 inline constexpr std::uint64_t kFixedBytes = std::uint64_t{1} << 20;
 
+/// An entry of metadata takes three bytes or more in a stream, and a node of a table in memory.
+inline constexpr std::uint64_t kBytesPerMetadataByte = 64;
+
 struct Need {
   std::uint64_t connectivity_bytes;
   std::uint64_t attribute_bytes;
