@@ -452,7 +452,8 @@ class GltfDracoTest : public GltfReaderTest {
   }
 
   static std::string stream() {
-    const std::string path = ATLASGAUGE_SOURCE_DIR "/../shared/data/draco/cube_att.drc";
+    const std::string path =
+        ATLASGAUGE_SOURCE_DIR "/../shared/data/draco/cube_att.obj.edgebreaker.cl4.2.2.drc";
     return std::filesystem::exists(path) ? read_range(whole_file(path)) : std::string();
   }
 };

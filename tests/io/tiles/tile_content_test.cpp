@@ -86,8 +86,10 @@ TEST(TileContentTest, OlderHeadersAreUnderstood) {
 TEST(TileContentTest, ACompositeIsItsTilesInOrder) {
   const std::string one = make_b3dm(triangle());
   const std::string two = make_b3dm(triangle() + "padding ");
-  EXPECT_EQ(gltf_in(make_cmpt(one, make_cmpt(two), one)),
-            (std::vector<std::string>{triangle(), triangle() + "padding ", triangle()}));
+  const std::string three = make_b3dm(triangle() + "more    ");
+  EXPECT_EQ(
+      gltf_in(make_cmpt(one, make_cmpt(two), three)),
+      (std::vector<std::string>{triangle(), triangle() + "padding ", triangle() + "more    "}));
 }
 
 TEST(TileContentTest, PointsAndInstancesAreSkippedWithAWarning) {

@@ -177,6 +177,15 @@ TEST_F(TilesetReaderTest, TransformsOfAllTilesAboveAndTheCenterGoAroundTheTurned
   EXPECT_EQ(positions_of(read(root).mesh()), (Positions{{1202, 2394, 3604}})) << "the same outside";
 }
 
+TEST_F(TilesetReaderTest, TheCenterOfCesiumHasZUpAsTheTilesetHas) {
+  GltfBuilder gltf;
+  gltf.show({{"attributes", {{"POSITION", gltf.positions({1, 2, 3})}}}});
+  gltf.document["extensions"]["CESIUM_RTC"]["center"] = {100, 200, 300};
+  dir_.write("a.glb", gltf.glb());
+  EXPECT_EQ(positions_of(read({{"content", {{"uri", "a.glb"}}}}).mesh()),
+            (Positions{{101, 197, 302}}));
+}
+
 TEST_F(TilesetReaderTest, ATileThatCannotBeReadIsAWarningAndTheRestIsMeasured) {
   Json root = tree("REPLACE");
   root["children"][0]["children"][0] = {{"content", {{"uri", "missing.b3dm"}}}};
