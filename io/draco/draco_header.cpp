@@ -42,6 +42,8 @@ class DracoBytes {
     return value;
   }
 
+  std::uint64_t left() const { return rest_.size(); }
+
   std::uint8_t byte() { return static_cast<std::uint8_t>(fixed(1)); }
 
   /// Seven bits a byte, lowest first. Bits beyond the 32nd are lost, as in Draco itself.
@@ -66,7 +68,7 @@ class HeaderParser {
 
   DracoHeader parse() {
     read_start();
-    if (has_metadata_) skip_geometry_metadata();
+    if (header_.has_metadata) skip_geometry_metadata();
     if (!header_.is_mesh) {
       header_.counts.positions = bytes_.fixed(4);
     } else if (header_.is_edgebreaker) {
@@ -103,7 +105,7 @@ class HeaderParser {
     header_.is_mesh = type == kMesh;
     header_.is_edgebreaker = header_.is_mesh && method == kEdgebreaker;
     check_version();
-    has_metadata_ = (bytes_.fixed(2) & kMetadataFlag) != 0 && is_at_least(1, 3);
+    header_.has_metadata = (bytes_.fixed(2) & kMetadataFlag) != 0 && is_at_least(1, 3);
   }
 
   void check_version() const {
@@ -118,11 +120,13 @@ class HeaderParser {
   }
 
   void skip_geometry_metadata() {
+    const std::uint64_t left_before = bytes_.left();
     for (std::uint32_t attributes = bytes_.varint(); attributes > 0; --attributes) {
       bytes_.varint();
       skip_metadata();
     }
     skip_metadata();
+    metadata_bytes_ = left_before - bytes_.left();
   }
 
   /// Each node is: entries, number of nodes below it, these nodes with a name each. So nodes come
@@ -156,7 +160,7 @@ class HeaderParser {
     header_.counts.positions = is_varint ? bytes_.varint() : bytes_.fixed(4);
     header_.counts.texcoords = header_.counts.positions;
     check_counts();
-    header_.decoding_bytes = draco_need::sequential(header_.counts);
+    set_need(draco_need::sequential(header_.counts));
   }
 
   void read_edgebreaker_counts() {
@@ -167,12 +171,21 @@ class HeaderParser {
     header_.counts.positions = number();
     header_.counts.faces = number();
     header_.counts.texcoords = header_.counts.positions;
-    const std::uint8_t attributes = bytes_.byte();
+    header_.seamed_attributes = bytes_.byte();
     const std::uint32_t symbols = number();
     const std::uint32_t splits = number();
     check_counts();
     if (symbols > header_.counts.faces || splits > symbols) refuse_counts();
-    header_.decoding_bytes = draco_need::edgebreaker(header_.counts, splits, attributes);
+    set_need(
+        header_.seamed_attributes == 0
+            ? draco_need::edgebreaker(header_.counts, splits)
+            : draco_need::seamed_edgebreaker(header_.counts, splits, header_.seamed_attributes));
+  }
+
+  void set_need(const draco_need::Need& need) {
+    header_.attribute_bytes = need.attribute_bytes;
+    header_.decoding_bytes = need.connectivity_bytes + need.attribute_bytes +
+                             metadata_bytes_ * draco_need::kBytesPerMetadataByte;
   }
 
   void check_counts() const {
@@ -209,7 +222,7 @@ class HeaderParser {
   std::uint64_t stream_bytes_;
   const std::string& path_;
   DracoHeader header_;
-  bool has_metadata_ = false;
+  std::uint64_t metadata_bytes_ = 0;
 };
 
 }  // namespace
@@ -227,6 +240,14 @@ DracoHeader read_draco_header(std::string_view begin, std::uint64_t stream_bytes
   header.decoding_bytes = stream_bytes * draco_need::kUsualBytesPerStreamByte;
   header.begin_bytes_needed = std::min<std::uint64_t>(stream_bytes, 4 * begin.size() + 256);
   return header;
+}
+
+void require_draco_mesh(const DracoHeader& header, const std::string& path) {
+  if (header.is_mesh) return;
+  throw Error(ErrorKind::kInput, path, 0,
+              fmt::format("found a Draco point cloud of {} points, expected a mesh: there are no "
+                          "faces to measure; give the mesh made from it",
+                          header.counts.positions));
 }
 
 }  // namespace atlasgauge

@@ -7,21 +7,21 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
-#include "io/draco/draco_need.hpp"
+#include "io/draco/allocation_limit.hpp"
+#include "io/draco/draco_materials.hpp"
 #include "io/error.hpp"
 
 namespace atlasgauge {
 namespace {
 
-/// Most bytes that a decoder holds of one value of an attribute: as integers, as what it is, and
-/// the index of a point into them.
-std::uint64_t bytes_per_point(const draco::PointAttribute& attribute) {
-  const auto components = static_cast<std::uint64_t>(attribute.num_components());
-  return components * sizeof(std::int32_t) + static_cast<std::uint64_t>(attribute.byte_stride()) +
-         sizeof(std::uint32_t);
+/// Most bytes that a decoder holds of one value of an attribute, as integers and as what it is.
+std::uint64_t value_bytes(const draco::PointAttribute& attribute) {
+  return static_cast<std::uint64_t>(attribute.num_components()) * sizeof(std::int32_t) +
+         static_cast<std::uint64_t>(attribute.byte_stride());
 }
 
 /// One of Draco's decoders, stopped before it allocates more for attributes than the header's
@@ -29,22 +29,45 @@ std::uint64_t bytes_per_point(const draco::PointAttribute& attribute) {
 template <class Decoder>
 class BoundedDecoder : public Decoder {
  public:
+  explicit BoundedDecoder(const DracoHeader& header) : header_(header) {}
+
   /// Bytes that the attributes would take, if that is too much.
   std::uint64_t refused_bytes() const { return refused_bytes_; }
 
  protected:
   bool DecodeAllAttributes() override {
-    const draco::PointCloud& points = *this->point_cloud();
-    std::uint64_t bytes = 0;
-    for (std::int32_t i = 0; i < points.num_attributes(); ++i) {
-      bytes += points.num_points() * bytes_per_point(*points.attribute(i));
-    }
-    if (bytes <= draco_need::attributes(points.num_points())) return Decoder::DecodeAllAttributes();
+    const std::uint64_t bytes = attribute_bytes();
+    if (bytes <= header_.attribute_bytes) return Decoder::DecodeAllAttributes();
     refused_bytes_ = bytes;
     return false;
   }
 
  private:
+  std::uint64_t attribute_bytes() const {
+    const draco::PointCloud& points = *this->point_cloud();
+    std::uint64_t bytes = 0;
+    for (std::int32_t i = 0; i < points.num_attributes(); ++i) {
+      bytes += values_of(i) * value_bytes(*points.attribute(i));
+      bytes += points.num_points() * sizeof(std::uint32_t);
+    }
+    return bytes;
+  }
+
+  std::uint64_t values_of(std::int32_t attribute) const {
+    const std::uint64_t points = this->point_cloud()->num_points();
+    const draco::CornerTable* const corners = this->GetCornerTable();
+    if (corners == nullptr || shares_seams()) return points;
+    const draco::MeshAttributeCornerTable* const seamed = this->GetAttributeCornerTable(attribute);
+    return static_cast<std::uint64_t>(seamed == nullptr ? corners->num_vertices()
+                                                        : seamed->num_vertices());
+  }
+
+  /// No encoder writes such a stream, and Draco knows the seams of one of the attributes only.
+  bool shares_seams() const {
+    return this->num_attributes_decoders() > header_.seamed_attributes + 1;
+  }
+
+  const DracoHeader& header_;
   std::uint64_t refused_bytes_ = 0;
 };
 
@@ -89,9 +112,9 @@ class DracoMesh::Decoded {
           const std::string& path)
       : path_(path) {
     if (header.is_edgebreaker) {
-      decode_with<draco::MeshEdgebreakerDecoder>(stream, attributes);
+      decode_with<draco::MeshEdgebreakerDecoder>(stream, header, attributes);
     } else {
-      decode_with<draco::MeshSequentialDecoder>(stream, attributes);
+      decode_with<draco::MeshSequentialDecoder>(stream, header, attributes);
     }
     find_materials();
     check_indices();
@@ -116,12 +139,14 @@ class DracoMesh::Decoded {
   }
 
   template <class Decoder>
-  void decode_with(std::string_view stream, const DracoAttributes& attributes) {
-    BoundedDecoder<Decoder> decoder;
+  void decode_with(std::string_view stream, const DracoHeader& header,
+                   const DracoAttributes& attributes) {
+    BoundedDecoder<Decoder> decoder(header);
     draco::DecoderBuffer buffer;
     buffer.Init(stream.data(), stream.size());
-    const draco::Status status = run(decoder, buffer);
-    if (decoder.refused_bytes() != 0) refuse_attributes(decoder.refused_bytes());
+    const draco::Status status = run(decoder, buffer, header);
+    if (decoder.refused_bytes() != 0)
+      refuse_attributes(decoder.refused_bytes(), header.attribute_bytes);
     if (!status.ok()) {
       refuse(
           fmt::format("found a Draco stream that cannot be decoded ({}); the file is damaged, "
@@ -131,24 +156,35 @@ class DracoMesh::Decoded {
     choose(attributes, decoder);
   }
 
-  draco::Status run(draco::MeshDecoder& decoder, draco::DecoderBuffer& buffer) {
+  /// Draco believes some numbers of a stream before it sees that they cannot be, such as how many
+  /// orientations the prediction of texture coordinates has: up to 256 MiB of them.
+  draco::Status run(draco::MeshDecoder& decoder, draco::DecoderBuffer& buffer,
+                    const DracoHeader& header) {
+    const AllocationLimit limit(header.decoding_bytes);
     try {
       const draco::DecoderOptions options;
       return decoder.Decode(options, &buffer, &mesh_);
     } catch (const std::length_error&) {
-      refuse(
-          "found a Draco stream with a length that nothing can have; the file is damaged, write "
-          "it anew");
+      refuse_claims(header);
+    } catch (const std::bad_alloc&) {
+      if (limit.was_reached()) refuse_claims(header);
+      throw;
     }
   }
 
-  [[noreturn]] void refuse_attributes(std::uint64_t bytes) const {
+  [[noreturn]] void refuse_claims(const DracoHeader& header) const {
+    refuse(
+        fmt::format("found a Draco stream that takes more than {} bytes to decode, and one of "
+                    "{} faces and {} points takes less; the file is damaged, write it anew",
+                    header.decoding_bytes, header.counts.faces, header.counts.positions));
+  }
+
+  [[noreturn]] void refuse_attributes(std::uint64_t bytes, std::uint64_t room) const {
     throw Error(ErrorKind::kResource, path_, 0,
                 fmt::format("found {} attributes that take {} bytes to decode for {} points, and "
                             "there is room for {}; encode the model without attributes other than "
                             "positions and texture coordinates",
-                            mesh_.num_attributes(), bytes, mesh_.num_points(),
-                            draco_need::attributes(mesh_.num_points())));
+                            mesh_.num_attributes(), bytes, mesh_.num_points(), room));
   }
 
   void choose(const DracoAttributes& attributes, draco::MeshDecoder& decoder) {
@@ -177,25 +213,15 @@ class DracoMesh::Decoded {
         Quantization{position_grid.bits, position_grid.step, uv_grid.bits, uv_grid.step};
   }
 
-  /// The attribute has an entry a material, of its name and its value.
   void find_materials() {
     if (mesh_.GetMetadata() == nullptr) return;
-    const draco::AttributeMetadata* const metadata =
-        mesh_.GetMetadata()->GetAttributeMetadataByStringEntry("name", "material");
-    if (metadata == nullptr) return;
-    const std::int32_t id = mesh_.GetAttributeIdByUniqueId(metadata->att_unique_id());
+    std::optional<DracoMaterials> found = find_draco_materials(*mesh_.GetMetadata());
+    if (!found) return;
+    material_names_ = std::move(found->names);
+    const std::int32_t id = mesh_.GetAttributeIdByUniqueId(found->attribute_id);
     if (id < 0 || mesh_.attribute(id)->num_components() != 1) return;
-    if (!draco::IsDataTypeIntegral(mesh_.attribute(id)->data_type())) return;
-    materials_ = mesh_.attribute(id);
-    const auto& entries = metadata->entries();
-    for (const auto& [name, entry] : entries) {
-      std::int32_t value = 0;
-      const bool is_material = name != "name" && name != "file_name" && entry.GetValue(&value) &&
-                               value >= 0 && std::cmp_less(value, entries.size());
-      if (!is_material) continue;
-      const auto index = static_cast<std::size_t>(value);
-      if (material_names_.size() <= index) material_names_.resize(index + 1);
-      material_names_[index] = name;
+    if (draco::IsDataTypeIntegral(mesh_.attribute(id)->data_type())) {
+      materials_ = mesh_.attribute(id);
     }
   }
 
@@ -240,12 +266,7 @@ DracoMesh::~DracoMesh() = default;
 DracoMesh DracoMesh::decode(std::string_view stream, const DracoAttributes& attributes,
                             const std::string& path) {
   const DracoHeader header = read_draco_header(stream, stream.size(), path);
-  if (!header.is_mesh) {
-    throw Error(ErrorKind::kInput, path, 0,
-                fmt::format("found a Draco point cloud of {} points, expected a mesh: there are no "
-                            "faces to measure; give the mesh made from it",
-                            header.counts.positions));
-  }
+  require_draco_mesh(header, path);
   return DracoMesh(std::make_unique<Decoded>(stream, header, attributes, path));
 }
 
@@ -265,7 +286,7 @@ Position DracoMesh::position(std::uint64_t i) const {
   std::array<double, 3> values{};
   const draco::AttributeValueIndex index(static_cast<std::uint32_t>(i));
   decoded_->positions().ConvertValue<double, 3>(index, values.data());
-  return {values[0], values[1], values[2]};
+  return {values[0] + 0.0, values[1] + 0.0, values[2] + 0.0};
 }
 
 TexCoord DracoMesh::texcoord(std::uint64_t i) const {

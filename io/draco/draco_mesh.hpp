@@ -18,6 +18,7 @@ namespace atlasgauge {
 struct DracoHeader {
   bool is_mesh = false;  ///< else a point cloud
   bool is_edgebreaker = false;
+  bool has_metadata = false;
   std::uint8_t major_version = 0, minor_version = 0;
   /// As the stream promises them. Texture coordinates are not counted there: as many as positions
   /// is a guess. A point cloud has positions only.
@@ -25,6 +26,8 @@ struct DracoHeader {
   /// Peak of decoding a mesh, as measured (see draco_need.hpp), the stream itself not included.
   /// decode() refuses a stream whose attributes take more.
   std::uint64_t decoding_bytes = 0;
+  std::uint64_t attribute_bytes = 0;   ///< of these, room for the values of attributes
+  std::uint8_t seamed_attributes = 0;  ///< attributes with a connectivity of their own
   /// Not 0: metadata stand before the counts and go on beyond the given bytes. The counts are then
   /// 0 and decoding_bytes a guess; ask again with so many bytes of the stream.
   std::uint64_t begin_bytes_needed = 0;
@@ -37,11 +40,18 @@ struct DracoHeader {
 DracoHeader read_draco_header(std::string_view begin, std::uint64_t stream_bytes,
                               const std::string& path);
 
+/// Throws Error(kInput) for a point cloud, which has no faces to measure.
+void require_draco_mesh(const DracoHeader& header, const std::string& path);
+
+/// As DracoMesh::material_names(), from the bytes that the header was read from.
+std::vector<std::string> read_draco_material_names(std::string_view begin,
+                                                   const DracoHeader& header);
+
 /// Which attributes of a stream to take: by their unique ids, as KHR_draco_mesh_compression names
 /// them, or the first of their kind.
 struct DracoAttributes {
-  std::optional<std::uint32_t> position_id;
-  std::optional<std::uint32_t> texcoord_id;
+  std::optional<std::uint32_t> position_id{};
+  std::optional<std::uint32_t> texcoord_id{};
   bool by_kind = true;  ///< for ids that are not given: the first of the kind, else none
 };
 

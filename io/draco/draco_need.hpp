@@ -5,40 +5,57 @@
 
 #include "io/model/mesh_part.hpp"
 
-/// What Draco 1.5.5 allocates while it decodes, by the arrays in its source; measured with
-/// generated grids and soups (tests/io/draco/draco_need_test.cpp).
+/// What Draco 1.5.5 allocates while it decodes, from the arrays in its source and from measuring
+/// generated grids and soups of half a million faces (draco_need_test.cpp): a grid with 16 bits a
+/// position and 14 a texture coordinate takes 37 bytes a face sequentially, 74 with edgebreaker and
+/// one connectivity, 97 to 109 with seams of its own; 245 where all faces lie apart in the texture.
 namespace atlasgauge::draco_need {
 
-/// Connectivity and values of the flattest grid cost 1/3000 of a byte a face with everything that
-/// Draco's encoder offers; no stream that says something about a surface comes near.
+/// Draco's encoder got 2158 faces of a flat square grid, whose corners lie exactly on the grid of
+/// the quantization, into a byte. Entropy coding has no lower bound, so this is not one either; but
+/// no stream that says something about a surface comes near.
 inline constexpr std::uint64_t kMostFacesPerByte = 1 << 14;
 
 /// A guess for streams whose counts are not known yet.
 inline constexpr std::uint64_t kUsualBytesPerStreamByte = 64;
 
-/// Room for the values of all attributes, a point: position, normal, texture coordinate and colour,
-/// each as integers, as floats, and with its index.
-inline constexpr std::uint64_t kAttributeBytesPerPoint = 112;
+/// Bytes for the values of one attribute: as integers, as what they are, and indices into them.
+inline constexpr std::uint64_t kPositionBytes = 28;
+inline constexpr std::uint64_t kAttributeBytes = 24;  ///< a normal, a colour, two UVs less a bit
+
+/// Attributes beside the positions that there is room for where the header does not count them.
+inline constexpr std::uint64_t kUncountedAttributes = 3;
 
 /// Streams may have more attributes as long as they are small.
-inline constexpr std::uint64_t kFixedBytes = std::uint64_t{4} << 20;
+inline constexpr std::uint64_t kFixedBytes = std::uint64_t{1} << 20;
 
-inline std::uint64_t attributes(std::uint64_t points) {
-  return points * kAttributeBytesPerPoint + kFixedBytes;
+/// An entry of metadata takes three bytes or more in a stream, and a node of a table in memory.
+inline constexpr std::uint64_t kBytesPerMetadataByte = 64;
+
+struct Need {
+  std::uint64_t connectivity_bytes;
+  std::uint64_t attribute_bytes;
+};
+
+inline Need sequential(const PartCounts& counts) {
+  const std::uint64_t point_bytes = kPositionBytes + kUncountedAttributes * kAttributeBytes;
+  return {counts.faces * 28, counts.positions * point_bytes + kFixedBytes};
 }
 
-inline std::uint64_t sequential(const PartCounts& counts) {
-  return counts.faces * 36 + attributes(counts.positions);
-}
-
-/// With seams of its own, an attribute may have a value and a point for each corner.
-inline std::uint64_t edgebreaker(const PartCounts& counts, std::uint64_t splits,
-                                 std::uint64_t seamed_attributes) {
+/// One connectivity for all attributes.
+inline Need edgebreaker(const PartCounts& counts, std::uint64_t splits) {
   const std::uint64_t vertices = counts.positions + splits;
-  const std::uint64_t points =
-      seamed_attributes == 0 ? vertices : std::max(vertices, 3 * counts.faces);
-  return counts.faces * (64 + seamed_attributes * 16) + vertices * 40 +
-         seamed_attributes * points * 16 + attributes(points);
+  const std::uint64_t vertex_bytes = kPositionBytes + kUncountedAttributes * kAttributeBytes;
+  return {counts.faces * 44 + vertices * 32, vertices * vertex_bytes + kFixedBytes};
+}
+
+/// Attributes with seams of their own may have a value and a point for each corner.
+inline Need seamed_edgebreaker(const PartCounts& counts, std::uint64_t splits,
+                               std::uint64_t attributes) {
+  const std::uint64_t vertices = counts.positions + splits;
+  const std::uint64_t points = std::max(vertices, 3 * counts.faces);
+  return {counts.faces * (44 + attributes * 20) + vertices * 32 + points * attributes * 32,
+          vertices * kPositionBytes + points * attributes * kAttributeBytes + kFixedBytes};
 }
 
 }  // namespace atlasgauge::draco_need

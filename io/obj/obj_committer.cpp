@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/error.hpp"
+#include "io/model/element_room.hpp"
 #include "io/obj/obj_block_parser.hpp"
 
 namespace atlasgauge {
@@ -19,13 +20,6 @@ constexpr const char* kNotFiniteKind = "coordinates not finite";
 
 /// ForwardPolygons handed out at a time.
 constexpr std::size_t kForwardBatch = 1024;
-
-void check_room(const std::string& path, const char* what, std::uint64_t count, std::size_t more) {
-  if (more <= kMaxElements - count) return;
-  throw Error(ErrorKind::kResource, path, 0,
-              fmt::format("found more than {} {}, the most one model may have; split the model",
-                          kMaxElements, what));
-}
 
 /// An index that was relative to `before` as an absolute one; kNone if it lies before the start.
 template <class Id>

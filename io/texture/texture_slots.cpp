@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <string_view>
-#include <system_error>
 #include <unordered_map>
 #include <utility>
 
 #include "io/error.hpp"
 #include "io/name_room.hpp"
+#include "io/texture/image_files.hpp"
 #include "io/texture/library_names.hpp"
 #include "io/texture/mtl_reader.hpp"
 
@@ -18,25 +18,6 @@ namespace atlasgauge {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Where an image was found, or would have been.
-struct ImagePlace {
-  std::string path;
-  bool exists;
-};
-
-bool is_file(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  return fs::exists(status) && !fs::is_directory(status);
-}
-
-/// One spelling for all paths to a file, existing or not.
-std::string one_spelling(const fs::path& path) {
-  std::error_code error;
-  const fs::path canonical = fs::weakly_canonical(path, error);
-  return error ? path.lexically_normal().string() : canonical.string();
-}
 
 /// Gathers slots while libraries are read in order.
 class SlotTable {
@@ -77,7 +58,7 @@ class SlotTable {
   }
 
   SlotId slot_of_image(const fs::path& library, const std::string& name) {
-    const ImagePlace place = find_image(library, name);
+    const ImagePlace place = find_image({library.parent_path(), obj_folder_}, name);
     const SlotId next{static_cast<std::uint32_t>(slots_.size())};
     const auto [known, is_new] = slot_at_.try_emplace(place.path, next);
     if (is_new) {
@@ -85,13 +66,6 @@ class SlotTable {
       slots_.push_back(make_slot(name, place, library));
     }
     return known->second;
-  }
-
-  ImagePlace find_image(const fs::path& library, const std::string& name) const {
-    const fs::path beside_library = library.parent_path() / name;
-    if (is_file(beside_library)) return {one_spelling(beside_library), true};
-    if (is_file(obj_folder_ / name)) return {one_spelling(obj_folder_ / name), true};
-    return {one_spelling(beside_library), false};
   }
 
   TextureSlot make_slot(const std::string& name, const ImagePlace& place,
@@ -134,11 +108,9 @@ class SlotTable {
   std::unordered_map<std::string, SlotId> slot_at_;  // by path
 };
 
-/// "model.mtl" for "model.obj", "model.obj.gz" and "model.obj.zst".
-fs::path own_library(fs::path obj_path) {
-  const fs::path extension = obj_path.extension();
-  if (extension == ".gz" || extension == ".zst") obj_path.replace_extension();
-  return obj_path.replace_extension(".mtl");
+/// "model.mtl" for "model.obj", compressed or not.
+fs::path own_library(const fs::path& obj_path) {
+  return without_compression(obj_path).replace_extension(".mtl");
 }
 
 /// Paths of the libraries that exist, each once.

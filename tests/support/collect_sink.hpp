@@ -15,6 +15,7 @@ class CollectSink : public MeshSink {
     texcoords.insert(texcoords.end(), batch.texcoords.begin(), batch.texcoords.end());
     faces.insert(faces.end(), batch.faces.begin(), batch.faces.end());
     forward.insert(forward.end(), batch.forward.begin(), batch.forward.end());
+    invalid_polygons += batch.invalid_polygons;
   }
 
   /// Drops the forward polygons that name no vertex of the whole model; returns how many.
@@ -38,6 +39,7 @@ class CollectSink : public MeshSink {
   std::vector<TexCoord> texcoords;
   std::vector<FaceRecord> faces;
   std::vector<ForwardPolygon> forward;
+  std::uint64_t invalid_polygons = 0;  // those of `forward` are not among them
 
  private:
   std::vector<FaceRecord>::const_iterator at(std::uint64_t face) const {

@@ -4,13 +4,10 @@
 #include <sstream>
 
 #include "tests/support/program.hpp"
+#include "tests/support/shared_folder.hpp"
 
 namespace atlasgauge {
 namespace {
-
-std::filesystem::path shared_folder() {
-  return std::filesystem::path(ATLASGAUGE_SOURCE_DIR).parent_path() / "shared";
-}
 
 ReferenceReport parse_entry(const std::string& line) {
   std::istringstream fields(line);

@@ -1,0 +1,60 @@
+#include "io/texture/image_files.hpp"
+
+#include <cctype>
+#include <system_error>
+#include <utility>
+
+namespace atlasgauge {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string in_capitals(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_directory(status);
+}
+
+std::string one_spelling(const fs::path& path) {
+  std::error_code error;
+  const fs::path canonical = fs::weakly_canonical(path, error);
+  return error ? path.lexically_normal().string() : canonical.string();
+}
+
+NamedImage image_in_file(std::string name, std::string path) {
+  return {std::move(name), {.path = std::move(path), .content = nullptr}};
+}
+
+ImagePlace find_image(const std::vector<fs::path>& folders, const std::string& name) {
+  for (const fs::path& folder : folders) {
+    if (is_file(folder / name)) return {one_spelling(folder / name), true};
+  }
+  return {one_spelling(folders.front() / name), false};
+}
+
+fs::path without_compression(fs::path model_path) {
+  const fs::path extension = model_path.extension();
+  if (extension == ".gz" || extension == ".zst") model_path.replace_extension();
+  return model_path;
+}
+
+std::optional<NamedImage> image_of_stem(const fs::path& model_path) {
+  fs::path path = without_compression(model_path);
+  for (const char* const suffix :
+       {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".tga", ".bmp", ".exr"}) {
+    for (const std::string& spelling : {std::string(suffix), in_capitals(suffix)}) {
+      path.replace_extension(spelling);
+      if (is_file(path)) return image_in_file(path.filename().string(), one_spelling(path));
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace atlasgauge
