@@ -163,7 +163,7 @@ class GltfImages::Adding {
   }
 
   std::string free_name(std::uint32_t number) {
-    const std::string name = name_of(number);
+    std::string name = name_of(number);
     if (images_.names_.insert(name).second) return name;
     std::string numbered = fmt::format("{}#{}", origin_.label, name);
     for (std::uint32_t copy = 2; !images_.names_.insert(numbered).second; ++copy) {

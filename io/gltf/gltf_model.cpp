@@ -253,7 +253,7 @@ Affine from_parts(const std::vector<double>& t, const std::vector<double>& q,
 
 Affine parse_transform(const JsonView& node) {
   if (const std::optional<JsonView> matrix = node.find("matrix")) return affine_from(*matrix);
-  const auto numbers_or = [&](const char* key, std::vector<double> otherwise) {
+  const auto numbers_or = [&](const char* key, const std::vector<double>& otherwise) {
     const std::optional<JsonView> member = node.find(key);
     return member ? member->numbers(otherwise.size()) : otherwise;
   };
@@ -305,11 +305,10 @@ bool is_black(const JsonView& factor) {
 /// emissive texture.
 std::optional<JsonView> colour_texture(const JsonView& material) {
   const std::optional<JsonView> pbr = material.find("pbrMetallicRoughness");
-  const std::optional<JsonView> base = pbr ? pbr->find("baseColorTexture") : std::nullopt;
+  std::optional<JsonView> base = pbr ? pbr->find("baseColorTexture") : std::nullopt;
   if (base) return base;
   const auto glossiness = extension_of(material, "KHR_materials_pbrSpecularGlossiness");
-  const std::optional<JsonView> diffuse =
-      glossiness ? glossiness->find("diffuseTexture") : std::nullopt;
+  std::optional<JsonView> diffuse = glossiness ? glossiness->find("diffuseTexture") : std::nullopt;
   if (diffuse) return diffuse;
   const std::optional<JsonView> factor = pbr ? pbr->find("baseColorFactor") : std::nullopt;
   if (!factor || !is_black(*factor)) return std::nullopt;

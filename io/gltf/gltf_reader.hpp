@@ -24,9 +24,10 @@ namespace atlasgauge {
 /// - Skins and morph targets are ignored, with a warning; points and lines are skipped, so are
 ///   primitives compressed by meshopt, unless nothing else is there.
 ///
-/// Holds the JSON while it is parsed (limits.json), then what it says, which takes less. Files are
-/// opened when they are read and closed behind; load() of a part finds what may be wrong in its
-/// values, so that emit() throws only where a file has changed since.
+/// While it is opened, the JSON and what it says take up to twice limits.json.memory_bytes, from
+/// then on what it says, once. Files are opened when they are read and closed behind; load() of a
+/// part finds what may be wrong in its values, so that emit() throws only where a file has changed
+/// since.
 class GltfReader : public PartReader {
  public:
   /// Throws Error(kInput) for a glTF that is broken, has no triangles, or requires unknown

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <ranges>
+#include <cstddef>
+#include <utility>
 
 #include "io/error.hpp"
 
@@ -31,7 +32,7 @@ class Walk {
 
  private:
   void push(const std::vector<std::uint32_t>& nodes, const Affine& parent) {
-    for (const std::uint32_t node : std::views::reverse(nodes)) open_.push_back({node, parent});
+    for (std::size_t i = nodes.size(); i > 0; --i) open_.push_back({nodes[i - 1], parent});
   }
 
   void enter(const Visit& visit) {

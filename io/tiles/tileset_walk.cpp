@@ -139,7 +139,8 @@ std::optional<TileFile> TilesetWalk::follow(const std::string& uri) {
     open_external(*file, open, tile);
     return std::nullopt;
   }
-  return TileFile{file->string(), file->lexically_relative(root_folder_).generic_string(),
+  return TileFile{file->lexically_normal().string(),
+                  file->lexically_relative(root_folder_).lexically_normal().generic_string(),
                   open.transform * open.tileset.transforms[tile.transform], open.up};
 }
 
