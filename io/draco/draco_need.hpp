@@ -54,7 +54,7 @@ inline Need seamed_edgebreaker(const PartCounts& counts, std::uint64_t splits,
                                std::uint64_t attributes) {
   const std::uint64_t vertices = counts.positions + splits;
   const std::uint64_t points = std::max(vertices, 3 * counts.faces);
-  return {counts.faces * (44 + attributes * 20) + vertices * 32 + points * attributes * 32,
+  return {counts.faces * (44 + attributes * 20) + vertices * 32 + points * attributes * 40,
           vertices * kPositionBytes + points * attributes * kAttributeBytes + kFixedBytes};
 }
 
