@@ -35,7 +35,7 @@ PartCounts GltfAccessorPart::counts() const {
 
 /// A block of the file, the same without stride, indices and values that replace some, and a batch.
 std::uint64_t GltfAccessorPart::memory_bytes() const {
-  return 4 * kMostElementBytes * block_elements_ + PartBatches::memory_bytes(block_elements_);
+  return 4 * kMostElementBytes * block_elements_ + GltfBatches::memory_bytes(block_elements_);
 }
 
 void GltfAccessorPart::load() {
@@ -45,7 +45,7 @@ void GltfAccessorPart::load() {
 }
 
 void GltfAccessorPart::emit(MeshSink& sink, Warnings& warnings) {
-  PartBatches batches(sink, block_elements_);
+  GltfBatches batches(sink, block_elements_);
   emit_positions(batches);
   if (geometry_->texcoords) emit_texcoords(batches);
   emit_faces(batches);
@@ -64,7 +64,7 @@ std::optional<Quantization> GltfAccessorPart::quantization() const {
   return result;
 }
 
-void GltfAccessorPart::emit_positions(PartBatches& batches) const {
+void GltfAccessorPart::emit_positions(GltfBatches& batches) const {
   const AccessorSource& source = geometry_->positions;
   const std::size_t bytes = component_bytes(source.type);
   AccessorBlocks blocks(source, block_elements_);
@@ -78,7 +78,7 @@ void GltfAccessorPart::emit_positions(PartBatches& batches) const {
   }
 }
 
-void GltfAccessorPart::emit_texcoords(PartBatches& batches) const {
+void GltfAccessorPart::emit_texcoords(GltfBatches& batches) const {
   const AccessorSource& source = *geometry_->texcoords;
   const std::size_t bytes = component_bytes(source.type);
   AccessorBlocks blocks(source, block_elements_);
@@ -92,7 +92,7 @@ void GltfAccessorPart::emit_texcoords(PartBatches& batches) const {
   }
 }
 
-void GltfAccessorPart::emit_faces(PartBatches& batches) const {
+void GltfAccessorPart::emit_faces(GltfBatches& batches) const {
   TriangleAssembler triangles(geometry_->mode, place_.transform.determinant() < 0);
   if (geometry_->indices) {
     const GltfComponent type = geometry_->indices->type;
@@ -111,7 +111,7 @@ void GltfAccessorPart::emit_faces(PartBatches& batches) const {
 
 /// A texture coordinate has the number of its position.
 void GltfAccessorPart::feed(std::uint32_t index, TriangleAssembler& triangles,
-                            PartBatches& batches) const {
+                            GltfBatches& batches) const {
   if (!triangles.feed(index)) return;
   const auto& [a, b, c] = triangles.corners();
   batches.add(FaceRecord{{VertexId{a}, VertexId{b}, VertexId{c}},

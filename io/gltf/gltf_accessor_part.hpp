@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "io/gltf/gltf_batches.hpp"
 #include "io/gltf/gltf_geometry.hpp"
-#include "io/gltf/part_batches.hpp"
 #include "io/gltf/triangle_assembler.hpp"
 #include "io/model/mesh_part.hpp"
 
@@ -27,10 +27,10 @@ class GltfAccessorPart : public MeshPart {
   std::optional<Quantization> quantization() const override;
 
  private:
-  void emit_positions(PartBatches& batches) const;
-  void emit_texcoords(PartBatches& batches) const;
-  void emit_faces(PartBatches& batches) const;
-  void feed(std::uint32_t index, TriangleAssembler& triangles, PartBatches& batches) const;
+  void emit_positions(GltfBatches& batches) const;
+  void emit_texcoords(GltfBatches& batches) const;
+  void emit_faces(GltfBatches& batches) const;
+  void feed(std::uint32_t index, TriangleAssembler& triangles, GltfBatches& batches) const;
 
   std::shared_ptr<const GltfGeometry> geometry_;
   GltfPlace place_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/gltf/part_batches.hpp"
+#include "io/gltf/gltf_batches.hpp"
 
 namespace atlasgauge {
 
@@ -22,7 +22,7 @@ PartCounts GltfDracoPart::counts() const {
 std::uint64_t GltfDracoPart::memory_bytes() const {
   const GltfDracoSource& draco = *geometry_->draco;
   return draco.header.decoding_bytes + draco.stream.size +
-         PartBatches::memory_bytes(batch_elements_);
+         GltfBatches::memory_bytes(batch_elements_);
 }
 
 void GltfDracoPart::load() {
@@ -32,7 +32,7 @@ void GltfDracoPart::load() {
 
 void GltfDracoPart::emit(MeshSink& sink, Warnings& warnings) {
   if (!mesh_) load();
-  PartBatches batches(sink, batch_elements_);
+  GltfBatches batches(sink, batch_elements_);
   for (std::uint64_t i = 0; i < mesh_->positions(); ++i) {
     batches.add(place_.transform.apply(mesh_->position(i)));
   }

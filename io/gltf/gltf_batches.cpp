@@ -1,4 +1,4 @@
-#include "io/gltf/part_batches.hpp"
+#include "io/gltf/gltf_batches.hpp"
 
 #include <fmt/format.h>
 
@@ -16,24 +16,24 @@ void warn(Warnings& warnings, const char* kind, const std::string& path, std::ui
 
 }  // namespace
 
-PartBatches::PartBatches(MeshSink& sink, std::size_t batch_elements)
+GltfBatches::GltfBatches(MeshSink& sink, std::size_t batch_elements)
     : sink_(sink), batch_elements_(std::max<std::size_t>(batch_elements, 1)) {}
 
-void PartBatches::add(const Position& position) {
+void GltfBatches::add(const Position& position) {
   positions_.push_back(position);
   ++position_count_;
   if (!is_finite(position)) ++not_finite_;
   flush_if_full(positions_.size());
 }
 
-void PartBatches::add(const TexCoord& texcoord) {
+void GltfBatches::add(const TexCoord& texcoord) {
   texcoords_.push_back(texcoord);
   ++texcoord_count_;
   if (!is_finite(texcoord)) ++not_finite_;
   flush_if_full(texcoords_.size());
 }
 
-void PartBatches::add(FaceRecord face) {
+void GltfBatches::add(FaceRecord face) {
   for (const VertexId v : face.v) {
     if (raw(v) >= position_count_) return add_invalid_polygon();
   }
@@ -44,7 +44,7 @@ void PartBatches::add(FaceRecord face) {
   flush_if_full(faces_.size());
 }
 
-void PartBatches::finish(Warnings& warnings, const std::string& path, const std::string& part) {
+void GltfBatches::finish(Warnings& warnings, const std::string& path, const std::string& part) {
   warn(warnings, "faces invalid", path, invalid_,
        fmt::format("{} faces dropped from {}: they name a position that is not there, or have "
                    "fewer than three corners",
@@ -58,16 +58,16 @@ void PartBatches::finish(Warnings& warnings, const std::string& path, const std:
   sink_.add(rest);
 }
 
-std::uint64_t PartBatches::memory_bytes(std::size_t batch_elements) {
+std::uint64_t GltfBatches::memory_bytes(std::size_t batch_elements) {
   return std::uint64_t{2} * batch_elements *
          (sizeof(Position) + sizeof(TexCoord) + sizeof(FaceRecord));
 }
 
-void PartBatches::flush_if_full(std::size_t gathered) {
+void GltfBatches::flush_if_full(std::size_t gathered) {
   if (gathered >= batch_elements_) flush();
 }
 
-void PartBatches::flush() {
+void GltfBatches::flush() {
   sink_.add({.positions = positions_, .texcoords = texcoords_, .faces = faces_});
   positions_.clear();
   texcoords_.clear();

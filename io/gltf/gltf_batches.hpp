@@ -12,10 +12,10 @@ namespace atlasgauge {
 
 /// Gathers the values of one part into batches, in their order: positions, texture coordinates,
 /// faces. Counts what is odd, and warns of it at the end.
-class PartBatches {
+class GltfBatches {
  public:
   /// A batch has at most `batch_elements` values.
-  PartBatches(MeshSink& sink, std::size_t batch_elements);
+  GltfBatches(MeshSink& sink, std::size_t batch_elements);
 
   void add(const Position& position);
   void add(const TexCoord& texcoord);
