@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
-#include "measures/base/exact_sum.hpp"
 #include "measures/base/measure.hpp"
+#include "stream/engine/exact_sum.hpp"
 
 namespace atlasgauge {
 namespace {

@@ -46,7 +46,7 @@ TextureSlots slots_of(const SeamScene& scene) {
   slots.has_images = true;
   for (std::uint32_t i = 0; i < scene.options().textures; ++i) {
     const std::string name = std::to_string(i);
-    slots.slots.push_back({name, name, size_of(scene), true, TexelKind::kByte, 0});
+    slots.slots.push_back({name, {.path = name}, size_of(scene), true, TexelKind::kByte, 0});
     slots.of_material.push_back(SlotId{i});
   }
   return slots;

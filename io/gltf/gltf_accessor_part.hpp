@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "io/gltf/gltf_geometry.hpp"
 #include "io/gltf/gltf_batches.hpp"
+#include "io/gltf/gltf_geometry.hpp"
 #include "io/gltf/triangle_assembler.hpp"
 #include "io/model/mesh_part.hpp"
 

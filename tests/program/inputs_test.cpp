@@ -64,7 +64,8 @@ TEST_F(InputsTest, APatternWithoutFilesExitsWithThree) {
 
 TEST_F(InputsTest, OneBrokenFileOfSeveralIsAnErrorThatNamesIt) {
   const std::string whole = dir_.write("a.ply", kQuadPly);
-  const std::string broken = dir_.write("b.ply", std::string(kQuadPly, std::string_view(kQuadPly).size() - 8));
+  const std::string broken =
+      dir_.write("b.ply", std::string(kQuadPly, std::string_view(kQuadPly).size() - 8));
   const ProgramResult run = measure({whole, broken});
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find("b.ply"), std::string::npos) << run.err;
