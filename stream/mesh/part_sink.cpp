@@ -36,6 +36,7 @@ void PartSink::begin_part(const std::string& path, std::uint64_t first_material,
   begin_ = {path, positions_.size(), texcoords_.size(), faces_.size(), first_material, alone};
   end_texcoord_named_ = 0;
   forward_.reset();
+  make_room_for_part();
 }
 
 void PartSink::add(const MeshBatch& batch) {
@@ -58,7 +59,6 @@ void PartSink::end_part(double position_step) {
   if (end_texcoord_named_ > texcoords_.size() - begin_.texcoords) {
     loose_.push_back({begin_.faces, faces_.size(), texcoords_.size()});
   }
-  make_room_for_part();
   store_.parts.push_back({begin_.faces, position_step});
 }
 

@@ -121,9 +121,10 @@ InputMaterials read_obj(Reading& reading, const std::string& path) {
 
 /// Loads the parts of one input on all workers and hands them out in order.
 ///
-/// A part is loaded as soon as a worker takes it, if there is memory for it beside those under way.
-/// Else it, and every part taken after it, waits until the parts before it are handed out and gone:
-/// then nothing else holds memory, so that what does not fit then never would.
+/// A part is loaded as soon as a worker takes it, if there is memory for it beside those under way,
+/// and some to spare for what grows with the number of parts. Else it, and every part taken after
+/// it, waits until the parts before it are handed out and gone: then nothing else holds memory, so
+/// that what does not fit then never would.
 class PartLoading {
  public:
   PartLoading(Reading& reading, const std::string& path, PartReader& reader)
@@ -145,6 +146,8 @@ class PartLoading {
   const InputQuantization& quantization() const { return quantization_; }
 
  private:
+  static constexpr std::uint64_t kSpareShare = 16;  // of the budget
+
   struct Item {
     std::unique_ptr<MeshPart> part;
     Reservation memory;
@@ -155,7 +158,8 @@ class PartLoading {
     item.part = reader_.next();
     if (!item.part) return false;
     const std::uint64_t bytes = item.part->memory_bytes();
-    item.waits = waiting_ > 0 || bytes > reading_.engine.budget.free_bytes();
+    const MemoryBudget& budget = reading_.engine.budget;
+    item.waits = waiting_ > 0 || bytes + budget.limit_bytes() / kSpareShare > budget.free_bytes();
     if (item.waits) {
       ++waiting_;
     } else {
@@ -165,11 +169,11 @@ class PartLoading {
   }
 
   void hand_out(Item& item) {
+    reading_.sink.begin_part(path_, reading_.materials_before);
     if (item.waits) {
       item.memory = reserve(item.part->memory_bytes());
       item.part->load();
     }
-    reading_.sink.begin_part(path_, reading_.materials_before);
     MaterialsSeen materials(reading_.sink);
     item.part->emit(materials, reading_.warnings);
     const std::optional<Quantization> quantization = item.part->quantization();
