@@ -12,8 +12,8 @@ namespace atlasgauge {
 
 /// How to read inputs that come in parts.
 struct PartOptions {
-  std::optional<std::uint32_t> lod;  ///< of 3D Tiles: the depth of the tiles to show; none:
-                                     ///< the leaves
+  /// Of 3D Tiles: the depth of the tiles to show; none: the leaves.
+  std::optional<std::uint32_t> lod;
   std::uint64_t json_bytes = std::uint64_t{64} << 20;  ///< what the JSON of a file may take
 };
 
