@@ -70,6 +70,10 @@ struct CellRecord {
 };
 static_assert(sizeof(CellRecord) == 72);
 
+bool by_part(const CellRecord& a, const CellRecord& b) {
+  return a.part < b.part;
+}
+
 /// A point of an edge that lies at another part.
 struct Touch {
   std::uint32_t edge;
@@ -306,7 +310,7 @@ class CrackSearch {
     const auto points = std::partition(cell.begin(), cell.end(),
                                        [](const CellRecord& r) { return r.is_segment(); });
     const auto edges = cell.first(static_cast<std::size_t>(points - cell.begin()));
-    std::ranges::sort(edges, {}, &CellRecord::part);
+    std::sort(edges.begin(), edges.end(), by_part);
     return edges;
   }
 
@@ -325,7 +329,7 @@ class CrackSearch {
     SpillReader<CellRecord> edges(cell);
     std::vector<CellRecord> held;
     const auto compare_held = [&] {
-      std::ranges::sort(held, {}, &CellRecord::part);
+      std::sort(held.begin(), held.end(), by_part);
       SpillReader<CellRecord> points(cell);
       for (CellRecord point{}; points.read(point);) {
         if (!point.is_segment()) compare(point, held, touches);
@@ -342,10 +346,10 @@ class CrackSearch {
 
   void compare(const CellRecord& point, std::span<const CellRecord> edges,
                TouchWriter& touches) const {
-    const auto own = std::ranges::equal_range(edges, point.part, {}, &CellRecord::part);
+    const auto [own, others] = std::equal_range(edges.begin(), edges.end(), point, by_part);
     const auto touches_it = [&](const CellRecord& edge) { return touch(point, edge); };
-    if (std::any_of(edges.begin(), own.begin(), touches_it) ||
-        std::any_of(own.end(), edges.end(), touches_it)) {
+    if (std::any_of(edges.begin(), own, touches_it) ||
+        std::any_of(others, edges.end(), touches_it)) {
       touches.push({point.edge, point.point, point.length_3d});
     }
   }
