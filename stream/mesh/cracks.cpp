@@ -177,14 +177,17 @@ class Grids {
   int level(const Segment& segment) const {
     return std::max(least_level_, level_of(half_extent(segment)));
   }
-  static std::size_t index(int level) { return static_cast<std::size_t>(level + kOffset); }
+  static std::size_t index(int level) {
+    const int place = level + kOffset;
+    return static_cast<std::size_t>(place);
+  }
   static double cell(double x, int level) { return std::floor(std::scalbn(x, -level)) + 0.0; }
   /// Beyond 2^53 cells the next one is the next double.
   static double next(double cell) {
     return std::max(cell + 1, std::nextafter(cell, std::numeric_limits<double>::infinity()));
   }
   static std::uint32_t hash(int level, double x, double y, double z) {
-    auto h = static_cast<std::uint64_t>(level + kOffset);
+    std::uint64_t h = index(level);
     for (const double c : {x, y, z}) {
       h = (h ^ std::bit_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15;
       h ^= h >> 32;
