@@ -6,7 +6,7 @@
 #include "io/model/mesh_part.hpp"
 
 /// What Draco 1.5.5 allocates while it decodes, from the arrays in its source and from measuring
-/// generated grids and soups of half a million faces (draco_need_test.cpp): a grid with 16 bits a
+/// generated grids and soups of half a million faces: a grid with 16 bits a
 /// position and 14 a texture coordinate takes 37 bytes a face sequentially, 74 with edgebreaker and
 /// one connectivity, 97 to 109 with seams of its own; 245 where all faces lie apart in the texture.
 namespace atlasgauge::draco_need {
