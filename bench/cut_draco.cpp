@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <string>
 
 #include "bench/draco_cut.hpp"
-#include "io/error.hpp"
+#include "bench/tool.hpp"
 
 int main(int argc, char** argv) {
   using namespace atlasgauge;
@@ -24,17 +22,8 @@ int main(int argc, char** argv) {
   app.add_option("--uv-bits", options.uv_bits)->capture_default_str();
   app.add_flag("--own-grids", options.own_grids, "Each stream rounds positions on its own grid");
   app.add_flag("--sequential", options.sequential, "Sequential encoding instead of Edgebreaker");
-  try {
-    app.parse(argc, argv);
+  return atlasgauge::run_tool("cut_draco", app, argc, argv, [&] {
     fmt::print("{} streams\n", cut_into_draco(model, options, directory));
     return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
-  } catch (const Error& error) {
-    fmt::print(stderr, "cut_draco: {}\n", error.what());
-    return static_cast<int>(error.kind());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "cut_draco: {}\n", error.what());
-    return static_cast<int>(ErrorKind::kInternal);
-  }
+  });
 }

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -14,6 +13,7 @@
 #include <thread>
 
 #include "bench/seam_scene.hpp"
+#include "bench/tool.hpp"
 #include "io/error.hpp"
 
 namespace {
@@ -67,17 +67,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Makes a scene of seams with known answers, to be checked with make_site --check."};
   Arguments arguments;
   describe(app, arguments);
-  try {
-    app.parse(argc, argv);
+  return atlasgauge::run_tool("make_seams", app, argc, argv, [&] {
     make(arguments);
     return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
-  } catch (const Error& error) {
-    fmt::print(stderr, "make_seams: {}\n", error.what());
-    return static_cast<int>(error.kind());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "make_seams: {}\n", error.what());
-    return static_cast<int>(ErrorKind::kInternal);
-  }
+  });
 }

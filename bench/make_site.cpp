@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "bench/site.hpp"
+#include "bench/tool.hpp"
 #include "io/error.hpp"
 
 namespace {
@@ -76,17 +76,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Makes a textured site scan with known answers, or checks a report against them."};
   Arguments arguments;
   describe(app, arguments);
-  try {
-    app.parse(argc, argv);
+  return atlasgauge::run_tool("make_site", app, argc, argv, [&] {
     if (!arguments.check.empty()) return check(arguments.check[0], arguments.check[1]);
     return make(arguments);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
-  } catch (const Error& error) {
-    fmt::print(stderr, "make_site: {}\n", error.what());
-    return static_cast<int>(error.kind());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "make_site: {}\n", error.what());
-    return static_cast<int>(ErrorKind::kInternal);
-  }
+  });
 }

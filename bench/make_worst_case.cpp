@@ -5,11 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <string>
 #include <system_error>
 
+#include "bench/tool.hpp"
 #include "bench/worst_cases.hpp"
 #include "io/error.hpp"
 
@@ -54,17 +54,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Makes a hostile model with known answers, to be checked with make_site --check."};
   Arguments arguments;
   describe(app, arguments);
-  try {
-    app.parse(argc, argv);
+  return atlasgauge::run_tool("make_worst_case", app, argc, argv, [&] {
     arguments.list ? list_cases() : make(arguments);
     return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
-  } catch (const Error& error) {
-    fmt::print(stderr, "make_worst_case: {}\n", error.what());
-    return static_cast<int>(error.kind());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "make_worst_case: {}\n", error.what());
-    return static_cast<int>(ErrorKind::kInternal);
-  }
+  });
 }

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -18,6 +17,7 @@
 #include "bench/end_to_end/site_plan.hpp"
 #include "bench/end_to_end/site_result.hpp"
 #include "bench/temp_folder.hpp"
+#include "bench/tool.hpp"
 #include "io/bytes.hpp"
 #include "io/error.hpp"
 
@@ -204,17 +204,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Measures atlasgauge on sites of multiples of its memory limit."};
   Arguments arguments;
   describe(app, arguments);
-  try {
-    app.parse(argc, argv);
+  return atlasgauge::run_tool("end_to_end", app, argc, argv, [&] {
     measure(arguments);
     return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
-  } catch (const Error& error) {
-    fmt::print(stderr, "end_to_end: {}\n", error.what());
-    return static_cast<int>(error.kind());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "end_to_end: {}\n", error.what());
-    return static_cast<int>(ErrorKind::kInternal);
-  }
+  });
 }

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -18,6 +17,7 @@
 #include "bench/peers/half_edges.hpp"
 #include "bench/temp_folder.hpp"
 #include "bench/text_file.hpp"
+#include "bench/tool.hpp"
 #include "io/bytes.hpp"
 #include "io/error.hpp"
 
@@ -219,18 +219,9 @@ int main(int argc, char** argv) {
   CLI::App app{"Compares parts of atlasgauge with programs that do the same."};
   Arguments arguments;
   describe(app, arguments);
-  try {
-    app.parse(argc, argv);
+  return atlasgauge::run_tool("peers", app, argc, argv, [&] {
     ::setenv("LC_ALL", "C", 1);  // sort compares bytes then
     compare(arguments);
     return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
-  } catch (const Error& error) {
-    fmt::print(stderr, "peers: {}\n", error.what());
-    return static_cast<int>(error.kind());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "peers: {}\n", error.what());
-    return static_cast<int>(ErrorKind::kInternal);
-  }
+  });
 }
