@@ -135,10 +135,19 @@ class Grids {
  public:
   static constexpr std::uint32_t kCells = std::uint32_t{1} << 30;  // hashes of them
 
-  /// `reach` is the largest distance at which edges meet.
-  explicit Grids(double reach) : reach_(reach), least_level_(level_of(reach)) {}
-
+  /// First, of every edge.
   void expect(const Segment& segment) { has_edges_[index(level(segment))] = true; }
+  /// Then: the largest distance at which edges meet. Edges of finer grids move to the finest with
+  /// cells of that size.
+  void set_reach(double reach) {
+    reach_ = reach;
+    least_level_ = level_of(reach);
+    const auto finest = has_edges_.begin() + static_cast<std::ptrdiff_t>(index(least_level_));
+    const auto any = std::find(has_edges_.begin(), finest, true);
+    if (any == finest) return;
+    std::fill(any, finest, false);
+    *finest = true;
+  }
 
   /// Calls use(cell) for each cell that the segment, grown by the reach, may touch: three in each
   /// direction at most.
@@ -195,8 +204,8 @@ class Grids {
     return static_cast<std::uint32_t>(h % kCells);
   }
 
-  double reach_;
-  int least_level_;
+  double reach_ = 0;
+  int least_level_ = level_of(0);
   std::vector<bool> has_edges_ = std::vector<bool>(std::size_t{2} * kOffset);
 };
 
@@ -267,12 +276,13 @@ class CrackSearch {
   static constexpr unsigned kAllPoints = 7;
 
   Grids make_grids() {
+    Grids grids;
     double largest = 0;
     edges_.visit([&](const CellRecord& edge) {
       largest = std::max(largest, largest_coordinate(edge.segment));
+      grids.expect(edge.segment);
     });
-    Grids grids(part_of_.largest_step() + float_error(largest));
-    edges_.visit([&](const CellRecord& edge) { grids.expect(edge.segment); });
+    grids.set_reach(part_of_.largest_step() + float_error(largest));
     return grids;
   }
 
