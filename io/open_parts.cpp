@@ -1,6 +1,5 @@
 #include "io/open_parts.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include "io/file/byte_source.hpp"
 #include "io/gltf/gltf_reader.hpp"
 #include "io/ply/ply_reader.hpp"
+#include "io/suffix.hpp"
 #include "io/tiles/b3dm_reader.hpp"
 #include "io/tiles/tileset_reader.hpp"
 
@@ -27,13 +27,6 @@ std::string first_bytes(const std::string& path) {
     count += more;
   }
   return {bytes.data(), count};
-}
-
-bool has_suffix(const std::string& path, std::string_view suffix) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == suffix;
 }
 
 bool is_ply(std::string_view begin) {

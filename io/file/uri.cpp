@@ -4,7 +4,8 @@
 #include <array>
 #include <cctype>
 #include <cstdint>
-#include <system_error>
+
+#include "io/file/file_path.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -67,12 +68,6 @@ bool has_scheme(std::string_view uri) {
   return std::ranges::all_of(uri.substr(0, colon), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.';
   });
-}
-
-bool is_file(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  return fs::exists(status) && !fs::is_directory(status);
 }
 
 }  // namespace

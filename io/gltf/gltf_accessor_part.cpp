@@ -1,6 +1,7 @@
 #include "io/gltf/gltf_accessor_part.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 
@@ -16,6 +17,22 @@ std::uint32_t bits_of(const AccessorSource& source) {
 
 double step_of(const AccessorSource& source) {
   return component_step(source.type, source.normalized);
+}
+
+/// Calls use(value) for every element, an array of its N components.
+template <std::size_t N, class Use>
+void visit_elements(const AccessorSource& source, std::size_t block_elements, Use use) {
+  const std::size_t bytes = component_bytes(source.type);
+  AccessorBlocks blocks(source, block_elements);
+  for (auto block = blocks.next(); !block.empty(); block = blocks.next()) {
+    for (std::size_t at = 0; at < block.size(); at += N * bytes) {
+      std::array<double, N> value;
+      for (std::size_t i = 0; i < N; ++i) {
+        value[i] = component_value(&block[at + i * bytes], source.type, source.normalized);
+      }
+      use(value);
+    }
+  }
 }
 
 }  // namespace
@@ -65,31 +82,14 @@ std::optional<Quantization> GltfAccessorPart::quantization() const {
 }
 
 void GltfAccessorPart::emit_positions(GltfBatches& batches) const {
-  const AccessorSource& source = geometry_->positions;
-  const std::size_t bytes = component_bytes(source.type);
-  AccessorBlocks blocks(source, block_elements_);
-  for (auto block = blocks.next(); !block.empty(); block = blocks.next()) {
-    for (std::size_t at = 0; at < block.size(); at += 3 * bytes) {
-      const auto value = [&](std::size_t axis) {
-        return component_value(&block[at + axis * bytes], source.type, source.normalized);
-      };
-      batches.add(place_.transform.apply({value(0), value(1), value(2)}));
-    }
-  }
+  visit_elements<3>(geometry_->positions, block_elements_, [&](const auto& p) {
+    batches.add(place_.transform.apply({p[0], p[1], p[2]}));
+  });
 }
 
 void GltfAccessorPart::emit_texcoords(GltfBatches& batches) const {
-  const AccessorSource& source = *geometry_->texcoords;
-  const std::size_t bytes = component_bytes(source.type);
-  AccessorBlocks blocks(source, block_elements_);
-  for (auto block = blocks.next(); !block.empty(); block = blocks.next()) {
-    for (std::size_t at = 0; at < block.size(); at += 2 * bytes) {
-      const auto value = [&](std::size_t axis) {
-        return component_value(&block[at + axis * bytes], source.type, source.normalized);
-      };
-      batches.add(geometry_->uv_map.apply(value(0), value(1)));
-    }
-  }
+  visit_elements<2>(*geometry_->texcoords, block_elements_,
+                    [&](const auto& t) { batches.add(geometry_->uv_map.apply(t[0], t[1])); });
 }
 
 void GltfAccessorPart::emit_faces(GltfBatches& batches) const {

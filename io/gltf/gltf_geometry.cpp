@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/draco/draco_begin.hpp"
 #include "io/error.hpp"
 #include "io/gltf/gltf_accessor_part.hpp"
 #include "io/gltf/gltf_draco_part.hpp"
@@ -78,22 +79,12 @@ AccessorSource find_indices(const GltfModel& model, GltfBuffers& buffers, std::u
   return source;
 }
 
-DracoHeader read_header(const ByteRange& stream) {
-  constexpr std::size_t kBeginBytes = 256;
-  DracoHeader header = read_draco_header(read_begin(stream, kBeginBytes), stream.size, stream.path);
-  for (std::uint64_t bytes = kBeginBytes; header.begin_bytes_needed > bytes;) {
-    bytes = header.begin_bytes_needed;
-    header = read_draco_header(read_begin(stream, bytes), stream.size, stream.path);
-  }
-  return header;
-}
-
 GltfDracoSource find_draco(GltfBuffers& buffers, const GltfDraco& draco,
                            std::uint32_t texcoord_set) {
   GltfDracoSource source;
   source.stream = buffers.view(draco.view, "a Draco stream");
   source.attributes = {draco.position, entry(draco.texcoords, texcoord_set), false};
-  source.header = read_header(source.stream);
+  source.header = read_draco_begin(source.stream).header;
   if (!draco.position) refuse(buffers, "found a Draco stream without POSITION");
   if (!source.header.is_mesh) {
     refuse(buffers, "found a Draco point cloud in a primitive of triangles, expected a mesh");

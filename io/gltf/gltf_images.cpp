@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "io/error.hpp"
+#include "io/file/file_path.hpp"
 #include "io/file/uri.hpp"
 
 namespace atlasgauge {
@@ -17,13 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kUnreadableKind = "image unreadable";
-
-/// One spelling for all paths to a file, existing or not.
-std::string one_spelling(const fs::path& path) {
-  std::error_code error;
-  const fs::path canonical = fs::weakly_canonical(path, error);
-  return error ? path.lexically_normal().string() : canonical.string();
-}
 
 std::string with_slashes(std::string name) {
   std::ranges::replace(name, '\\', '/');

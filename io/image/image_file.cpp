@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/error.hpp"
-#include "io/file/byte_source.hpp"
+#include "io/file/byte_range.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -34,18 +34,19 @@ ImageFile::ImageFile(const ImageSource& source) : path_(source.path) {
 }
 
 void ImageFile::take_range(const ImageSource& source) {
+  const ByteRange file = whole_file(source.path);
+  if (!file.holds(source.offset, source.byte_size)) {
+    throw Error(ErrorKind::kInput, source.path, 0,
+                fmt::format("the file ends within an image: {} bytes from byte {} on",
+                            source.byte_size, source.offset));
+  }
+  const RangeReader range(file.part(source.offset, source.byte_size));
   std::vector<char> piece(std::min(kPieceBytes, source.byte_size));
   while (copied_bytes_ < source.byte_size) {
-    const std::uint64_t wanted =
+    const std::size_t bytes =
         std::min<std::uint64_t>(piece.size(), source.byte_size - copied_bytes_);
-    const std::size_t got =
-        read_file_at(source.path, source.offset + copied_bytes_, piece.data(), wanted);
-    if (got == 0) {
-      throw Error(ErrorKind::kInput, source.path, 0,
-                  fmt::format("the file ends within an image: {} bytes from byte {} on",
-                              source.byte_size, source.offset));
-    }
-    append(piece.data(), got);
+    range.read(copied_bytes_, piece.data(), bytes);
+    append(piece.data(), bytes);
   }
 }
 

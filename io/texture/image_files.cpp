@@ -1,8 +1,9 @@
 #include "io/texture/image_files.hpp"
 
 #include <cctype>
-#include <system_error>
 #include <utility>
+
+#include "io/file/file_path.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -15,18 +16,6 @@ std::string in_capitals(std::string text) {
 }
 
 }  // namespace
-
-bool is_file(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  return fs::exists(status) && !fs::is_directory(status);
-}
-
-std::string one_spelling(const fs::path& path) {
-  std::error_code error;
-  const fs::path canonical = fs::weakly_canonical(path, error);
-  return error ? path.lexically_normal().string() : canonical.string();
-}
 
 NamedImage image_in_file(std::string name, std::string path) {
   return {std::move(name), {.path = std::move(path), .content = nullptr}};

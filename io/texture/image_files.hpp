@@ -15,12 +15,6 @@ struct ImagePlace {
   bool exists;
 };
 
-/// Anything that can be opened and read, and is no directory.
-bool is_file(const std::filesystem::path& path);
-
-/// One spelling for all paths to a file, existing or not.
-std::string one_spelling(const std::filesystem::path& path);
-
 /// All of a file.
 NamedImage image_in_file(std::string name, std::string path);
 

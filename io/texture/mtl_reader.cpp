@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/error.hpp"
 #include "io/file/byte_source.hpp"
 #include "io/name_room.hpp"
 #include "io/obj/obj_numbers.hpp"
@@ -118,6 +119,16 @@ std::vector<Material> read_mtl(const std::string& path, Warnings& warnings) {
     read_statement(lines.line(), materials, room);
   }
   return materials;
+}
+
+std::vector<Material> read_mtl_if_readable(const std::string& path, Warnings& warnings) {
+  try {
+    return read_mtl(path, warnings);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    warnings.add("library unreadable", path, 0, error.what());
+    return {};
+  }
 }
 
 }  // namespace atlasgauge

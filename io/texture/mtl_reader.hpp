@@ -19,4 +19,7 @@ struct Material {
 /// or Error(kResource) where the names exceed NameRoom::kMaxBytes.
 std::vector<Material> read_mtl(const std::string& path, Warnings& warnings);
 
+/// The same, but a library that cannot be read is a warning, and has no materials.
+std::vector<Material> read_mtl_if_readable(const std::string& path, Warnings& warnings);
+
 }  // namespace atlasgauge

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/error.hpp"
+#include "io/file/file_path.hpp"
 #include "io/name_room.hpp"
 #include "io/texture/image_files.hpp"
 #include "io/texture/library_names.hpp"
@@ -95,7 +96,7 @@ class LibraryMaterials {
       : obj_folder_(fs::path(obj_path).parent_path()), table_(table), warnings_(warnings) {}
 
   void add_library(const std::string& path) {
-    for (const Material& material : read_library(path)) {
+    for (const Material& material : read_mtl_if_readable(path, warnings_)) {
       const auto [known, is_first] = slot_of_.try_emplace(material.name, kNone<SlotId>);
       if (!is_first) continue;
       table_.room().add(material.name.size());
@@ -109,16 +110,6 @@ class LibraryMaterials {
   }
 
  private:
-  std::vector<Material> read_library(const std::string& path) const {
-    try {
-      return read_mtl(path, warnings_);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::kInput) throw;
-      warnings_.add("library unreadable", path, 0, error.what());
-      return {};
-    }
-  }
-
   SlotId slot_of_image(const fs::path& library, const std::string& name) {
     const ImagePlace place = find_image({library.parent_path(), obj_folder_}, name);
     std::optional<std::string> missing;

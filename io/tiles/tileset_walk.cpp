@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <span>
-#include <system_error>
 #include <utility>
 
 #include "io/error.hpp"
 #include "io/file/byte_range.hpp"
+#include "io/file/file_path.hpp"
 #include "io/file/uri.hpp"
 #include "io/suffix.hpp"
 
@@ -19,12 +19,6 @@ namespace fs = std::filesystem;
 
 /// Tilesets that name each other, one within the other.
 constexpr std::size_t kMostOpen = 64;
-
-std::string one_spelling(const fs::path& path) {
-  std::error_code error;
-  const fs::path canonical = fs::weakly_canonical(path, error);
-  return error ? path.lexically_normal().string() : canonical.string();
-}
 
 bool is_external(const std::string& uri) {
   return has_suffix(uri, ".json") || has_suffix(uri.substr(0, uri.find_first_of("?#")), ".json");

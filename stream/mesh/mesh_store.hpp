@@ -37,7 +37,6 @@ struct MeshStore {
   Reservation parts_memory;
   std::vector<PartStart> parts;
   BoundingBox box;
-  std::uint64_t nonfinite_positions = 0;
   std::uint64_t invalid_polygons = 0;
   bool uvs_in_unit_square = true;  ///< every finite texture coordinate lies in [0,1]
 };

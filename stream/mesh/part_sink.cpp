@@ -1,12 +1,10 @@
 #include "stream/mesh/part_sink.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "io/error.hpp"
+#include "io/model/element_room.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -40,9 +38,9 @@ void PartSink::begin_part(const std::string& path, std::uint64_t first_material,
 }
 
 void PartSink::add(const MeshBatch& batch) {
-  require_room("positions", positions_.size(), batch.positions.size());
-  require_room("texture coordinates", texcoords_.size(), batch.texcoords.size());
-  require_room("triangles", faces_.size(), batch.faces.size());
+  check_room(begin_.path, "positions", positions_.size(), batch.positions.size());
+  check_room(begin_.path, "texture coordinates", texcoords_.size(), batch.texcoords.size());
+  check_room(begin_.path, "triangles", faces_.size(), batch.faces.size());
   for (const Position& p : batch.positions) note(p);
   for (const TexCoord& t : batch.texcoords) note(t);
   positions_.append(batch.positions);
@@ -81,11 +79,7 @@ void PartSink::make_room_for_part() {
 }
 
 void PartSink::note(const Position& p) {
-  if (is_finite(p)) {
-    store_.box.add(p);
-  } else {
-    ++store_.nonfinite_positions;
-  }
+  if (is_finite(p)) store_.box.add(p);
 }
 
 void PartSink::note(const TexCoord& t) {
@@ -118,14 +112,6 @@ FaceRecord PartSink::shifted(FaceRecord face) {
   }
   face.material = moved(face.material, begin_.materials);
   return face;
-}
-
-void PartSink::require_room(const char* what, std::uint64_t before, std::uint64_t more) const {
-  if (before + more <= kMaxElements) return;
-  throw Error(ErrorKind::kInput, begin_.path, 0,
-              fmt::format("with this the model has more than {} {}, which is more than can be "
-                          "measured as one; measure its parts one by one",
-                          kMaxElements, what));
 }
 
 void PartSink::drop_polygons_of_no_vertex() {

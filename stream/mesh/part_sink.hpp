@@ -52,7 +52,6 @@ class PartSink : public MeshSink {
   void add_faces(std::span<const FaceRecord> faces);
   void append(std::span<const FaceRecord> faces);
   FaceRecord shifted(FaceRecord face);
-  void require_room(const char* what, std::uint64_t before, std::uint64_t more) const;
   void make_room_for_part();
   void drop_polygons_of_no_vertex();
   void rewrite_faces();

@@ -19,6 +19,7 @@
 #include "tests/support/module_folder.hpp"
 #include "tests/support/pipeline_run.hpp"
 #include "tests/support/reference_reports.hpp"
+#include "tests/support/shared_folder.hpp"
 #include "tests/support/temp_dir.hpp"
 
 namespace atlasgauge {
@@ -261,7 +262,7 @@ struct RealInput {
 };
 
 TEST(RealInputsTest, EveryOneIsMeasuredOrRefusedForBeingAPointCloud) {
-  const fs::path data = fs::path(ATLASGAUGE_SOURCE_DIR).parent_path() / "shared/data";
+  const fs::path data = shared_folder() / "data";
   if (!fs::exists(data)) GTEST_SKIP() << "SKIPPED: no real models beside this checkout";
   show_modules(kImageModuleFile);
   PipelineConfig config;

@@ -98,13 +98,6 @@ class FakeReader : public PartReader {
   std::size_t next_ = 0;
 };
 
-template <class T>
-std::vector<T> all_of(Spill<T>& spill) {
-  std::vector<T> all(spill.size());
-  SpillReader<T>(spill).read(all);
-  return all;
-}
-
 class ReadModelTest : public ::testing::Test {
  protected:
   ReadModel read(TestEngine& engine, const std::vector<std::string>& inputs) {
@@ -127,9 +120,9 @@ TEST_F(ReadModelTest, PartsFollowEachOtherWithIndicesAndMaterialsOfTheModel) {
   parts_["b"] = {{.x = 3}};
   TestEngine engine;
   ReadModel model = read(engine, {"a", "b"});
-  const std::vector<FaceRecord> faces = all_of(model.mesh.faces);
+  const std::vector<FaceRecord> faces = records_of(model.mesh.faces);
   ASSERT_EQ(faces.size(), 3U);
-  const std::vector<Position> positions = all_of(model.mesh.positions);
+  const std::vector<Position> positions = records_of(model.mesh.positions);
   for (std::uint32_t i = 0; i < 3; ++i) {
     EXPECT_EQ(raw(faces[i].v[0]), 3 * i);
     EXPECT_EQ(raw(faces[i].t[2]), 3 * i + 2);
@@ -147,7 +140,7 @@ TEST_F(ReadModelTest, ObjFilesAndPartsMakeOneModel) {
   parts_["b"] = {{.x = 3}};
   TestEngine engine;
   ReadModel model = read(engine, {obj, "b", obj});
-  const std::vector<FaceRecord> faces = all_of(model.mesh.faces);
+  const std::vector<FaceRecord> faces = records_of(model.mesh.faces);
   ASSERT_EQ(faces.size(), 3U);
   EXPECT_EQ(raw(faces[1].v[0]), 3U);
   EXPECT_EQ(raw(faces[1].t[0]), 1U);
@@ -163,7 +156,7 @@ TEST_F(ReadModelTest, WhatNamesNothingInItsPartNamesNothingInTheModel) {
       dir_.write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 1\nf 1 2 9\nf 1/1 2/2 3/1\n");
   TestEngine engine;
   ReadModel model = read(engine, {loose, next});
-  const std::vector<FaceRecord> faces = all_of(model.mesh.faces);
+  const std::vector<FaceRecord> faces = records_of(model.mesh.faces);
   EXPECT_EQ(model.mesh.invalid_polygons, 2U);
   ASSERT_EQ(faces.size(), 4U);
   EXPECT_EQ(faces[1].t[1], kNone<TexCoordId>) << "not the first of the next part";
@@ -181,7 +174,7 @@ TEST_F(ReadModelTest, PartsThatTogetherAreTooLargeAreLoadedOneByOne) {
   TestEngine engine({.budget_bytes = 2 << 20, .workers = 4});
   ReadModel model = read(engine, {"a"});
   EXPECT_EQ(model.mesh.faces.size(), 12U);
-  const std::vector<Position> positions = all_of(model.mesh.positions);
+  const std::vector<Position> positions = records_of(model.mesh.positions);
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(positions[3 * i].x, static_cast<double>(i));
   EXPECT_EQ(loads_.most_bytes, two_thirds);
 }
