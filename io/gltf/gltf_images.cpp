@@ -14,8 +14,6 @@
 namespace atlasgauge {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* kUnreadableKind = "image unreadable";
 
 std::string with_slashes(std::string name) {
