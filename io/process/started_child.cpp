@@ -8,13 +8,16 @@
 #include <fcntl.h>
 #include <linux/close_range.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <utility>
 
 #include "io/error.hpp"
 
@@ -48,11 +51,21 @@ std::vector<char*> argv_of(const ChildCommand& command) {
   return argv;
 }
 
+/// A limit can be lowered, never raised above the hard one.
+rlimit data_limit_of(const ChildCommand& command) {
+  rlimit limit{};
+  ::getrlimit(RLIMIT_DATA, &limit);
+  if (command.data_bytes == 0) return limit;
+  const rlim_t bytes = std::min<rlim_t>(command.data_bytes, limit.rlim_cur);
+  return {bytes, bytes};
+}
+
 /// All that the child needs between fork and exec.
 struct Birth {
   char* const* argv;
   pid_t parent;
   int out, err, failure;
+  rlimit data;
 };
 
 [[noreturn]] void tell_failure(const Birth& birth) {
@@ -74,6 +87,10 @@ void be_first_to_go() {
   if (file < 0) return;
   [[maybe_unused]] const ssize_t written = ::write(file, "1000", 4);
   ::close(file);
+}
+
+void limit_memory(const Birth& birth) {
+  if (::setrlimit(RLIMIT_DATA, &birth.data) != 0) tell_failure(birth);
 }
 
 /// The new descriptors are never 0 to 2 themselves, so dup2 always makes one that outlives exec.
@@ -110,6 +127,7 @@ void reset_signals() {
 [[noreturn]] void become_program(const Birth& birth) {
   die_with_parent(birth);
   be_first_to_go();
+  limit_memory(birth);
   connect_streams(birth);
   close_others_on_exec();
   reset_signals();
@@ -144,8 +162,12 @@ StartedChild start_child(const ChildCommand& command) {
   Pipe out = make_pipe(command);
   Pipe err = make_pipe(command);
   Pipe failure = make_pipe(command);
-  const Birth birth{argv.data(), ::getpid(), out.write_end.get(), err.write_end.get(),
-                    failure.write_end.get()};
+  const Birth birth{argv.data(),
+                    ::getpid(),
+                    out.write_end.get(),
+                    err.write_end.get(),
+                    failure.write_end.get(),
+                    data_limit_of(command)};
   const pid_t pid = ::fork();
   if (pid < 0) fail_to_start(command, errno);
   if (pid == 0) become_program(birth);

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace atlasgauge {
 /// What a child process is to run.
 struct ChildCommand {
   std::vector<std::string> arguments;  ///< the program first: an absolute path, or /proc/self/exe
+  /// Limit of its private writable memory, enforced by the system: allocations beyond it fail. 0:
+  /// none but that of this process. See data_limit().
+  std::uint64_t data_bytes = 0;
 };
 
 /// A child process from its start on, and the ends of its pipes. Whoever has it must wait for it.

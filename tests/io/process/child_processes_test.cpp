@@ -165,6 +165,37 @@ TEST_F(ChildProcessesTest, PeakMemoryIsReported) {
             64 * kMiB);
 }
 
+TEST_F(ChildProcessesTest, MemoryIsLimited) {
+  ChildCommand command = shell("ulimit -d; x=$(head -c 134217728 /dev/zero | tr '\\0' x); exit 0");
+  command.data_bytes = 64 * kMiB;
+  children_.start(0, command);
+  const ChildEnd end = wait();
+  EXPECT_EQ(end.out, "65536\n");
+  EXPECT_NE(end.exit_code, 0);
+}
+
+TEST_F(ChildProcessesTest, MemoryIsNotLimitedUnlessAsked) {
+  rlimit own{};
+  ASSERT_EQ(::getrlimit(RLIMIT_DATA, &own), 0);
+  const std::string limit =
+      own.rlim_cur == RLIM_INFINITY ? "unlimited" : std::to_string(own.rlim_cur / 1024);
+  EXPECT_EQ(run("ulimit -d").out, limit + "\n");
+}
+
+TEST_F(ChildProcessesTest, ALimitOfMemoryIsNeverRaised) {
+  OtherProcess process([] {
+    const rlimit limit{512 * kMiB, 1024 * kMiB};
+    ::setrlimit(RLIMIT_DATA, &limit);
+    StopSignals stop;
+    ChildProcesses children(stop);
+    ChildCommand command = shell("[ $(ulimit -d) = 524288 ]");
+    command.data_bytes = 4096 * kMiB;
+    children.start(0, command);
+    return children.wait().value().exit_code;
+  });
+  EXPECT_EQ(process.wait().value(), 0);
+}
+
 TEST_F(ChildProcessesTest, TimesAreReported) {
   const ChildEnd end = run("i=0; while [ $i -lt 100000 ]; do i=$((i+1)); done; sleep 0.3");
   EXPECT_GT(end.cpu_seconds, 0.005);
