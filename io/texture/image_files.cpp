@@ -1,5 +1,6 @@
 #include "io/texture/image_files.hpp"
 
+#include <array>
 #include <cctype>
 #include <utility>
 
@@ -9,6 +10,9 @@ namespace atlasgauge {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::array kStemSuffixes = {".png",  ".jpg", ".jpeg", ".tif", ".tiff",
+                                      ".webp", ".tga", ".bmp",  ".exr"};
 
 std::string in_capitals(std::string text) {
   for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -36,14 +40,17 @@ fs::path without_compression(fs::path model_path) {
 
 std::optional<NamedImage> image_of_stem(const fs::path& model_path) {
   fs::path path = without_compression(model_path);
-  for (const char* const suffix :
-       {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".tga", ".bmp", ".exr"}) {
+  for (const char* const suffix : kStemSuffixes) {
     for (const std::string& spelling : {std::string(suffix), in_capitals(suffix)}) {
       path.replace_extension(spelling);
       if (is_file(path)) return image_in_file(path.filename().string(), one_spelling(path));
     }
   }
   return std::nullopt;
+}
+
+std::string first_image_of_stem(const fs::path& model_path) {
+  return without_compression(model_path).replace_extension(kStemSuffixes.front()).string();
 }
 
 }  // namespace atlasgauge

@@ -1,6 +1,7 @@
 #include "io/texture/library_names.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "io/obj/obj_numbers.hpp"
@@ -47,10 +48,14 @@ std::string_view unquoted(std::string_view text) {
   return in_quotes ? text.substr(1, text.size() - 2) : text;
 }
 
+/// The text as a name, in the order in which they are tried.
+std::array<std::string, 3> spellings_of(std::string_view text) {
+  return {with_slashes(text), unescaped(text), with_slashes(unquoted(text))};
+}
+
 /// The text as the name of a file that exists.
 std::optional<std::string> existing_name(std::string_view text, const Exists& exists) {
-  for (const std::string& name :
-       {with_slashes(text), unescaped(text), with_slashes(unquoted(text))}) {
+  for (const std::string& name : spellings_of(text)) {
     if (!name.empty() && exists(name)) return name;
   }
   return std::nullopt;
@@ -95,6 +100,19 @@ LibraryNames split_library_names(std::string_view text, const Exists& exists) {
     if (run) names.found.push_back(run->name);
     missing += run ? 0 : 1;
     first += run ? run->words : 1;
+  }
+  return names;
+}
+
+std::vector<std::string> possible_library_names(std::string_view missing) {
+  std::vector<std::string_view> texts = words_of(missing);
+  if (texts.size() != 1) texts.insert(texts.begin(), missing);
+  std::vector<std::string> names;
+  for (const std::string_view text : texts) {
+    for (const std::string& name : spellings_of(text)) {
+      const bool is_new = names.empty() || names.back() != name;
+      if (!name.empty() && is_new) names.push_back(name);
+    }
   }
   return names;
 }

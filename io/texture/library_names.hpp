@@ -19,4 +19,8 @@ struct LibraryNames {
 LibraryNames split_library_names(std::string_view text,
                                  const std::function<bool(const std::string& name)>& exists);
 
+/// What may be meant by a run of words that split_library_names() found missing: all of it, or each
+/// of its words, in every spelling that is tried.
+std::vector<std::string> possible_library_names(std::string_view missing);
+
 }  // namespace atlasgauge

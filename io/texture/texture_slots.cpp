@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <string_view>
 #include <unordered_map>
@@ -12,8 +11,8 @@
 #include "io/file/file_path.hpp"
 #include "io/name_room.hpp"
 #include "io/texture/image_files.hpp"
-#include "io/texture/library_names.hpp"
 #include "io/texture/mtl_reader.hpp"
+#include "io/texture/obj_libraries.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -125,42 +124,16 @@ class LibraryMaterials {
   std::unordered_map<std::string, SlotId> slot_of_;  // by material
 };
 
-/// "model.mtl" for "model.obj", "model.obj.gz" and "model.obj.zst".
-fs::path own_library(const fs::path& obj_path) {
-  return without_compression(obj_path).replace_extension(".mtl");
-}
-
-/// Paths of the libraries that exist, each once.
-std::vector<std::string> find_libraries(const std::string& obj_path,
-                                        const std::vector<std::string>& mtllib_lines,
-                                        Warnings& warnings) {
-  const fs::path folder = fs::path(obj_path).parent_path();
-  const auto exists = [&](const std::string& name) { return is_file(folder / name); };
-  std::vector<std::string> libraries;
-  if (mtllib_lines.empty() && is_file(own_library(obj_path))) {
-    libraries.push_back(own_library(obj_path).string());
-  }
-  for (const std::string& line : mtllib_lines) {
-    const LibraryNames names = split_library_names(line, exists);
-    for (const std::string& name : names.missing) {
-      warnings.add(
-          "library missing", obj_path, 0,
-          fmt::format("material library \"{}\" not found; its materials have no images", name));
-    }
-    for (const std::string& name : names.found) {
-      const std::string path = (folder / name).string();
-      if (std::ranges::find(libraries, path) == libraries.end()) libraries.push_back(path);
-    }
-  }
-  return libraries;
-}
-
 void add_materials(const std::string& path, const ObjMaterials& obj, SlotTable& table,
                    Warnings& warnings, std::vector<SlotId>& of_material) {
   LibraryMaterials materials(path, table, warnings);
-  for (const std::string& library : find_libraries(path, obj.mtllib_lines, warnings)) {
-    materials.add_library(library);
+  const ObjLibraries libraries = find_libraries(path, obj.mtllib_lines);
+  for (const std::string& name : libraries.missing) {
+    warnings.add(
+        "library missing", path, 0,
+        fmt::format("material library \"{}\" not found; its materials have no images", name));
   }
+  for (const std::string& library : libraries.found) materials.add_library(library);
   for (const std::string& name : obj.names) of_material.push_back(materials.slot_of(name));
 }
 
