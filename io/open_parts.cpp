@@ -37,21 +37,23 @@ bool is_ply(std::string_view begin) {
 }  // namespace
 
 std::unique_ptr<PartReader> open_parts(const std::string& path, const PartOptions& options,
-                                       Warnings& warnings) {
+                                       Warnings& warnings, const FileListener& files) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return nullptr;
   const GltfLimits limits{.json = {.memory_bytes = options.json_bytes}};
   const std::string begin = first_bytes(path);
   if (begin.starts_with("DRACO") || has_suffix(path, ".drc")) {
-    return std::make_unique<DracoReader>(path, warnings);
+    return std::make_unique<DracoReader>(path, warnings, files);
   }
-  if (is_ply(begin) || has_suffix(path, ".ply")) return std::make_unique<PlyReader>(path);
-  if (begin.starts_with("b3dm")) return std::make_unique<B3dmReader>(path, limits, warnings);
+  if (is_ply(begin) || has_suffix(path, ".ply")) {
+    return std::make_unique<PlyReader>(path, PlyReader::kBlockBytes, files);
+  }
+  if (begin.starts_with("b3dm")) return std::make_unique<B3dmReader>(path, limits, warnings, files);
   if (begin.starts_with("glTF") || has_suffix(path, ".gltf") || has_suffix(path, ".glb")) {
-    return std::make_unique<GltfReader>(path, limits, warnings);
+    return std::make_unique<GltfReader>(path, limits, warnings, files);
   }
   if (has_suffix(path, ".json")) {
-    return std::make_unique<TilesetReader>(path, options.lod, limits, warnings);
+    return std::make_unique<TilesetReader>(path, options.lod, limits, warnings, files);
   }
   return nullptr;
 }

@@ -110,8 +110,8 @@ PartMaterials materials_by_name(const std::vector<std::string>& names, const fs:
 
 }  // namespace
 
-DracoReader::DracoReader(std::string path, Warnings& warnings)
-    : path_(std::move(path)), warnings_(warnings) {}
+DracoReader::DracoReader(std::string path, Warnings& warnings, FileListener files)
+    : path_(std::move(path)), warnings_(warnings), files_(std::move(files)) {}
 
 std::unique_ptr<MeshPart> DracoReader::next() {
   if (std::exchange(is_read_, true)) return nullptr;
@@ -121,12 +121,15 @@ std::unique_ptr<MeshPart> DracoReader::next() {
   const std::vector<std::string> names = read_draco_material_names(begin.bytes, begin.header);
   auto part = std::make_unique<DracoPart>(stream, begin.header);
   const fs::path library = fs::path(path_).replace_extension(".mtl");
+  if (!names.empty()) files_.tell(library.string());
   if (!names.empty() && is_file(library)) {
     materials_ = materials_by_name(names, library, warnings_);
     part->set_materials(FaceMaterials::kByName);
   } else if (std::optional<NamedImage> image = image_of_stem(path_)) {
     materials_ = {{std::move(*image)}, {0}};
     part->set_materials(FaceMaterials::kOneImage);
+  } else {
+    files_.tell(first_image_of_stem(path_));
   }
   return part;
 }

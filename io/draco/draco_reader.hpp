@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "io/file/file_listener.hpp"
 #include "io/model/part_reader.hpp"
 #include "io/warnings.hpp"
 
@@ -17,7 +18,7 @@ namespace atlasgauge {
 class DracoReader : public PartReader {
  public:
   /// Warns about libraries of materials that cannot be read.
-  DracoReader(std::string path, Warnings& warnings);
+  DracoReader(std::string path, Warnings& warnings, FileListener files = {});
 
   /// Throws Error(kInput) for a point cloud too, and for a file that is compressed once more.
   std::unique_ptr<MeshPart> next() override;
@@ -26,6 +27,7 @@ class DracoReader : public PartReader {
  private:
   std::string path_;
   Warnings& warnings_;
+  FileListener files_;
   PartMaterials materials_;
   bool is_read_ = false;
 };

@@ -10,11 +10,12 @@
 namespace atlasgauge {
 
 GltfBuffers::GltfBuffers(const GltfModel& model, std::string path, std::filesystem::path folder,
-                         std::optional<ByteRange> binary)
+                         std::optional<ByteRange> binary, const FileListener& files)
     : model_(model),
       path_(std::move(path)),
       folder_(std::move(folder)),
-      binary_(std::move(binary)) {}
+      binary_(std::move(binary)),
+      files_(files) {}
 
 ByteRange GltfBuffers::view(std::uint32_t view, const std::string& what) {
   if (view >= model_.views.size()) {
@@ -64,6 +65,7 @@ ByteRange GltfBuffers::find_buffer(std::uint32_t buffer, const std::string& what
       refuse(fmt::format("buffer {} is at \"{}\", which is no file; fetch it, and name the copy",
                          buffer, shown_uri(uri.text)));
     }
+    files_.tell(file->string());
     bytes = whole_file(file->string());
   } else if (is_binary_chunk(buffer)) {
     bytes = *binary_;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/file/byte_range.hpp"
+#include "io/file/file_listener.hpp"
 #include "io/gltf/gltf_model.hpp"
 
 namespace atlasgauge {
@@ -15,10 +16,10 @@ namespace atlasgauge {
 /// for, and keeps none open. All throw Error(kInput).
 class GltfBuffers {
  public:
-  /// `model` outlives this. `path` is the file of the glTF, for messages; URIs are relative to
-  /// `folder`; `binary` is the BIN chunk of a GLB.
+  /// `model` and `files` outlive this. `path` is the file of the glTF, for messages; URIs are
+  /// relative to `folder`; `binary` is the BIN chunk of a GLB; `files` hears of all others.
   GltfBuffers(const GltfModel& model, std::string path, std::filesystem::path folder,
-              std::optional<ByteRange> binary);
+              std::optional<ByteRange> binary, const FileListener& files);
 
   /// The bytes of a view. `what` names it for messages: "accessor 3".
   ByteRange view(std::uint32_t view, const std::string& what);
@@ -40,6 +41,7 @@ class GltfBuffers {
   std::string path_;
   std::filesystem::path folder_;
   std::optional<ByteRange> binary_;
+  const FileListener& files_;
   std::map<std::uint32_t, ByteRange> found_;
 };
 

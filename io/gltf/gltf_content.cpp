@@ -78,14 +78,15 @@ std::filesystem::path folder_of(const ByteRange& range) {
 }  // namespace
 
 GltfContent::GltfContent(const ByteRange& range, const GltfFrame& frame, const GltfLimits& limits,
-                         const GltfOrigin& origin, GltfImages& images, Warnings& warnings)
+                         const GltfOrigin& origin, GltfImages& images, const FileListener& files,
+                         Warnings& warnings)
     : block_bytes_(limits.block_bytes) {
   const GltfChunks chunks = find_gltf_chunks(range);
   const GltfModel model =
       parse_gltf(read_json(chunks.json, limits.json, is_gltf_member), range.path);
   const Affine root = frame.outer * model.rtc * frame.up;
   const GltfScene scene = walk_scene(model, root, range.path);
-  GltfBuffers buffers(model, range.path, folder_of(range), chunks.binary);
+  GltfBuffers buffers(model, range.path, folder_of(range), chunks.binary, files);
   Meshes meshes(model, buffers, warnings);
   for (const GltfShownMesh& shown : scene.meshes) {
     for (const auto& geometry : meshes.of(shown.mesh))

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/file/byte_range.hpp"
+#include "io/file/file_listener.hpp"
 #include "io/gltf/gltf_geometry.hpp"
 #include "io/gltf/gltf_images.hpp"
 #include "io/gltf/gltf_model.hpp"
@@ -34,10 +35,12 @@ struct GltfFrame {
 /// after the constructor only damaged values can go wrong, not the structure.
 class GltfContent {
  public:
-  /// URIs are relative to the folder of the range's file. Throws Error(kInput), and
-  /// Error(kResource) where the limits do not do; then nothing is added to `images`.
+  /// URIs are relative to the folder of the range's file; `files` hears of the buffers there.
+  /// Throws Error(kInput), and Error(kResource) where the limits do not do; then nothing is added
+  /// to `images`.
   GltfContent(const ByteRange& range, const GltfFrame& frame, const GltfLimits& limits,
-              const GltfOrigin& origin, GltfImages& images, Warnings& warnings);
+              const GltfOrigin& origin, GltfImages& images, const FileListener& files,
+              Warnings& warnings);
 
   /// The next primitive under the next node, or null after the last.
   std::unique_ptr<MeshPart> next();

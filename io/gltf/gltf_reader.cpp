@@ -6,9 +6,10 @@
 
 namespace atlasgauge {
 
-GltfReader::GltfReader(const std::string& path, const GltfLimits& limits, Warnings& warnings)
+GltfReader::GltfReader(const std::string& path, const GltfLimits& limits, Warnings& warnings,
+                       const FileListener& files)
     : images_(path, limits.json.memory_bytes),
-      content_(whole_file(path), {}, limits, lone_origin(path), images_, warnings) {
+      content_(whole_file(path), {}, limits, lone_origin(path), images_, files, warnings) {
   require_triangles(content_, path);
 }
 

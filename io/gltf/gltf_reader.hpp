@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "io/file/file_listener.hpp"
 #include "io/gltf/gltf_content.hpp"
 #include "io/gltf/gltf_images.hpp"
 #include "io/model/part_reader.hpp"
@@ -32,7 +33,8 @@ class GltfReader : public PartReader {
  public:
   /// Throws Error(kInput) for a glTF that is broken, has no triangles, or requires unknown
   /// extensions; Error(kResource) where the limits do not do.
-  GltfReader(const std::string& path, const GltfLimits& limits, Warnings& warnings);
+  GltfReader(const std::string& path, const GltfLimits& limits, Warnings& warnings,
+             const FileListener& files = {});
 
   std::unique_ptr<MeshPart> next() override { return content_.next(); }
   const PartMaterials& materials() const override { return images_.materials(); }

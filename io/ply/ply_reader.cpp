@@ -68,8 +68,11 @@ PartMaterials materials_of(const PlyHeader& header, const std::string& path) {
 
 }  // namespace
 
-PlyReader::PlyReader(std::string path, std::size_t block_bytes)
-    : source_(open_byte_source(path)), path_(std::move(path)), block_bytes_(block_bytes) {}
+PlyReader::PlyReader(std::string path, std::size_t block_bytes, FileListener files)
+    : source_(open_byte_source(path)),
+      path_(std::move(path)),
+      block_bytes_(block_bytes),
+      files_(std::move(files)) {}
 
 PlyReader::PlyReader(std::unique_ptr<ByteSource> source, std::string path, std::size_t block_bytes)
     : source_(std::move(source)), path_(std::move(path)), block_bytes_(block_bytes) {}
@@ -82,6 +85,8 @@ std::unique_ptr<MeshPart> PlyReader::next() {
   if (std::optional<NamedImage> image = image_of_stem(path_)) {
     materials_ = {{std::move(*image)}, {0}};
     part->set_own_image();
+  } else {
+    files_.tell(first_image_of_stem(path_));
   }
   return part;
 }

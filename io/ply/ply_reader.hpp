@@ -5,6 +5,7 @@
 #include <string>
 
 #include "io/file/byte_source.hpp"
+#include "io/file/file_listener.hpp"
 #include "io/model/part_reader.hpp"
 
 namespace atlasgauge {
@@ -21,7 +22,8 @@ class PlyReader : public PartReader {
   static constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
 
   /// `block_bytes` are read at a time (at least 64).
-  explicit PlyReader(std::string path, std::size_t block_bytes = kBlockBytes);
+  explicit PlyReader(std::string path, std::size_t block_bytes = kBlockBytes,
+                     FileListener files = {});
   /// From a source under a name.
   PlyReader(std::unique_ptr<ByteSource> source, std::string path,
             std::size_t block_bytes = kBlockBytes);
@@ -33,6 +35,7 @@ class PlyReader : public PartReader {
   std::unique_ptr<ByteSource> source_;  // null after the first part
   std::string path_;
   std::size_t block_bytes_;
+  FileListener files_;
   PartMaterials materials_;
 };
 

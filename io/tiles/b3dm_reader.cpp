@@ -2,13 +2,14 @@
 
 namespace atlasgauge {
 
-B3dmReader::B3dmReader(const std::string& path, const GltfLimits& limits, Warnings& warnings)
-    : B3dmReader(path, find_in_b3dm(whole_file(path), limits.json), limits, warnings) {}
+B3dmReader::B3dmReader(const std::string& path, const GltfLimits& limits, Warnings& warnings,
+                       const FileListener& files)
+    : B3dmReader(path, find_in_b3dm(whole_file(path), limits.json), limits, warnings, files) {}
 
 B3dmReader::B3dmReader(const std::string& path, const TileGltf& tile, const GltfLimits& limits,
-                       Warnings& warnings)
+                       Warnings& warnings, const FileListener& files)
     : images_(path, limits.json.memory_bytes),
-      content_(tile.gltf, {tile.rtc, {}}, limits, lone_origin(path), images_, warnings) {
+      content_(tile.gltf, {tile.rtc, {}}, limits, lone_origin(path), images_, files, warnings) {
   require_triangles(content_, path);
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "io/file/file_listener.hpp"
 #include "io/gltf/gltf_content.hpp"
 #include "io/gltf/gltf_images.hpp"
 #include "io/gltf/gltf_reader.hpp"
@@ -18,14 +19,15 @@ namespace atlasgauge {
 class B3dmReader : public PartReader {
  public:
   /// Throws as GltfReader does.
-  B3dmReader(const std::string& path, const GltfLimits& limits, Warnings& warnings);
+  B3dmReader(const std::string& path, const GltfLimits& limits, Warnings& warnings,
+             const FileListener& files = {});
 
   std::unique_ptr<MeshPart> next() override { return content_.next(); }
   const PartMaterials& materials() const override { return images_.materials(); }
 
  private:
   B3dmReader(const std::string& path, const TileGltf& tile, const GltfLimits& limits,
-             Warnings& warnings);
+             Warnings& warnings, const FileListener& files);
 
   GltfImages images_;
   GltfContent content_;

@@ -11,11 +11,12 @@
 namespace atlasgauge {
 
 TilesetReader::TilesetReader(const std::string& path, std::optional<std::uint32_t> cut,
-                             const GltfLimits& limits, Warnings& warnings)
+                             const GltfLimits& limits, Warnings& warnings, FileListener files)
     : path_(path),
       limits_(limits),
       warnings_(warnings),
-      walk_(path, cut, limits.json),
+      files_(std::move(files)),
+      walk_(path, cut, limits.json, files_),
       images_(path, limits.json.memory_bytes) {}
 
 std::unique_ptr<MeshPart> TilesetReader::next() {
@@ -36,6 +37,7 @@ std::unique_ptr<MeshPart> TilesetReader::next() {
 }
 
 void TilesetReader::open(const TileFile& file) {
+  files_.tell(file.path);
   try {
     const std::vector<TileGltf> found =
         find_in_tile(whole_file(file.path), limits_.json, warnings_);
@@ -53,7 +55,7 @@ void TilesetReader::open_gltf(const TileGltf& tile, const TileFile& file, std::s
   const GltfFrame frame{file.transform * tile.rtc, to_z_up(file.up)};
   const std::string suffix = number == 0 ? "" : fmt::format("#{}", number);
   const GltfOrigin origin{file.path + suffix, file.label + suffix, false};
-  GltfContent content(tile.gltf, frame, limits_, origin, images_, warnings_);
+  GltfContent content(tile.gltf, frame, limits_, origin, images_, files_, warnings_);
   while (std::unique_ptr<MeshPart> part = content.next()) {
     parts_.push_back(std::make_unique<TilePart>(std::move(part), state));
   }

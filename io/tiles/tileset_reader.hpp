@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "io/file/file_listener.hpp"
 #include "io/gltf/gltf_content.hpp"
 #include "io/gltf/gltf_images.hpp"
 #include "io/model/part_reader.hpp"
@@ -34,7 +35,7 @@ class TilesetReader : public PartReader {
  public:
   /// `cut`: the depth of the tiles to show; none: the leaves. Throws as TilesetWalk does.
   TilesetReader(const std::string& path, std::optional<std::uint32_t> cut, const GltfLimits& limits,
-                Warnings& warnings);
+                Warnings& warnings, FileListener files = {});
 
   /// Throws Error(kInput) after the last tile if none could be read, and what TilesetWalk throws.
   std::unique_ptr<MeshPart> next() override;
@@ -51,6 +52,7 @@ class TilesetReader : public PartReader {
   std::string path_;
   GltfLimits limits_;
   Warnings& warnings_;
+  FileListener files_;
   TilesetWalk walk_;
   GltfImages images_;
   std::deque<std::unique_ptr<MeshPart>> parts_;  // of the open tile

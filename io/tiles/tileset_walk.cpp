@@ -39,9 +39,10 @@ bool has_own_content(const Tileset& tileset, const Tile& tile) {
 }  // namespace
 
 TilesetWalk::TilesetWalk(const std::string& path, std::optional<std::uint32_t> cut,
-                         const JsonLimits& limits)
+                         const JsonLimits& limits, FileListener files)
     : cut_(cut.value_or(std::numeric_limits<std::uint32_t>::max())),
       limits_(limits),
+      files_(std::move(files)),
       root_folder_(fs::path(path).parent_path()) {
   open(path, {}, UpAxis::kY, 0, false);
 }
@@ -60,6 +61,7 @@ std::vector<std::string> TilesetWalk::take_faults() {
 
 void TilesetWalk::open(const std::string& path, const Affine& transform, UpAxis up,
                        std::uint32_t base_depth, bool adds) {
+  files_.tell(path);
   const ByteRange file = whole_file(path);
   Tileset tileset = parse_tileset(read_json(file, limits_left(), is_tileset_member), path, {adds});
   const UpAxis own_up = tileset.up.value_or(up);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file/file_listener.hpp"
 #include "io/json/bounded_json.hpp"
 #include "io/model/affine.hpp"
 #include "io/tiles/tileset.hpp"
@@ -40,9 +41,10 @@ struct TileFile {
 /// Holds the JSON of the tilesets from the outermost to the innermost open one, not those beside.
 class TilesetWalk {
  public:
-  /// Throws Error(kInput) for a tileset that is broken, and Error(kResource) for one beyond the
-  /// limits.
-  TilesetWalk(const std::string& path, std::optional<std::uint32_t> cut, const JsonLimits& limits);
+  /// `files` hears of the tilesets. Throws Error(kInput) for a tileset that is broken, and
+  /// Error(kResource) for one beyond the limits.
+  TilesetWalk(const std::string& path, std::optional<std::uint32_t> cut, const JsonLimits& limits,
+              FileListener files);
 
   /// The next file, or nothing after the last. Throws Error(kInput) for tilesets that name each
   /// other in a circle, and Error(kResource).
@@ -77,6 +79,7 @@ class TilesetWalk {
 
   std::uint32_t cut_;
   JsonLimits limits_;
+  FileListener files_;
   std::filesystem::path root_folder_;
   std::vector<Open> open_;
   std::vector<std::string> faults_;
