@@ -86,6 +86,10 @@ ObjSummary ObjCommitter::finish() {
   return std::move(summary_);
 }
 
+std::vector<std::string> ObjCommitter::take_mtllib_lines() {
+  return libraries_.take();
+}
+
 void ObjCommitter::commit_lines(ObjBlock& block, MeshSink& sink) {
   for (;;) {
     commit_values(block, sink);

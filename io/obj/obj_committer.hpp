@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/mesh_batch.hpp"
 #include "io/obj/obj_block.hpp"
@@ -23,6 +24,7 @@ class ObjCommitter {
 
   void commit(ObjBlock& block, MeshSink& sink);
   ObjSummary finish();
+  std::vector<std::string> take_mtllib_lines();
 
  private:
   void commit_lines(ObjBlock& block, MeshSink& sink);

@@ -40,4 +40,8 @@ ObjSummary ObjReader::finish() {
   return committer_.finish();
 }
 
+std::vector<std::string> ObjReader::take_mtllib_lines() {
+  return committer_.take_mtllib_lines();
+}
+
 }  // namespace atlasgauge

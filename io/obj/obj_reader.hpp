@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "io/file/byte_source.hpp"
 #include "io/mesh_batch.hpp"
@@ -39,6 +40,9 @@ class ObjReader {
 
   /// After the last commit().
   ObjSummary finish();
+
+  /// Instead of finish(), at any time: the `mtllib` lines committed so far, as ObjSummary has them.
+  std::vector<std::string> take_mtllib_lines();
 
  private:
   ObjBlockCutter cutter_;
