@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <string>
+
+#include "io/limit_sources.hpp"
 
 namespace atlasgauge {
 
@@ -11,15 +11,6 @@ namespace atlasgauge {
 struct MemoryLimit {
   std::uint64_t bytes;
   std::string origin;
-};
-
-/// Where limits are looked up.
-struct LimitSources {
-  std::uint64_t machine_bytes;
-  std::string root;  ///< stands before /proc and before the cgroup mounts
-  std::function<std::optional<std::string>(const std::string& name)> variable;
-
-  static LimitSources of_this_process();
 };
 
 /// The smallest of the machine's memory, the cgroup's limit and the Slurm job's.

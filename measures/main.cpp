@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "io/command_line.hpp"
+#include "io/cpu_limit.hpp"
 #include "io/error.hpp"
 #include "io/file/input_paths.hpp"
 #include "io/file/output_file.hpp"
@@ -55,7 +56,7 @@ bool shows_progress(const Options& options) {
 MemoryPlan plan_for(const Options& options) {
   return plan_memory({options.memory_bytes, options.engine_memory_bytes, options.block_bytes,
                       options.threads, options.raster == RasterChoice::kOsmesa},
-                     usable_cpus());
+                     detect_cpu_limit().cpus);
 }
 
 /// The JSON of a file may take an eighth of the memory, and twice that while it is parsed.

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <malloc.h>
-#include <sched.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -37,13 +36,6 @@ void prepare_process() {
   hold_closed_streams();
   let_large_files_fail();
   return_freed_memory();
-}
-
-std::size_t usable_cpus() {
-  cpu_set_t cpus;
-  CPU_ZERO(&cpus);
-  if (::sched_getaffinity(0, sizeof(cpus), &cpus) != 0) return 1;
-  return static_cast<std::size_t>(CPU_COUNT(&cpus));
 }
 
 }  // namespace atlasgauge

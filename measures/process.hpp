@@ -1,14 +1,9 @@
 #pragma once
 
-#include <cstddef>
-
 namespace atlasgauge {
 
 /// Settings of the whole process that a run relies on: closed standard streams stay closed, a file
 /// that may grow no larger is an error instead of a signal, and freed memory goes back.
 void prepare_process();
-
-/// CPUs that this process may run on.
-std::size_t usable_cpus();
 
 }  // namespace atlasgauge

@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <map>
-#include <optional>
 #include <string>
 
-#include "tests/support/temp_dir.hpp"
+#include "tests/io/limited_system.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -20,36 +18,15 @@ constexpr const char* kV2Mount =
 constexpr const char* kV1Mount =
     "35 31 0:32 / /sys/fs/cgroup/memory rw,relatime - cgroup cgroup rw,memory\n";
 
-/// A system whose files lie in a folder and whose variables in a map.
-class MemoryLimitTest : public testing::Test {
+class MemoryLimitTest : public testing::Test, protected LimitedSystem {
  protected:
-  void group_is(const std::string& lines) const { dir_.write("proc/self/cgroup", lines); }
-  void mounts_are(const std::string& lines) const {
-    dir_.write("proc/self/mountinfo",
-               "23 1 254:0 / / rw,relatime - ext4 /dev/vda rw\n"
-               "24 23 0:30 / /sys/fs/cgroup/cpu rw - cgroup cgroup rw,cpu\n" +
-                   lines);
-  }
-  void file(const std::string& path, const std::string& content) const {
-    dir_.write(path.substr(1), content + "\n");
-  }
-  MemoryLimit detect() const {
-    return detect_memory_limit({kMachine, dir_.path().string(), [&](const std::string& name) {
-                                  const auto found = variables_.find(name);
-                                  return found == variables_.end()
-                                             ? std::nullopt
-                                             : std::optional<std::string>(found->second);
-                                }});
-  }
+  MemoryLimitTest() : LimitedSystem(kMachine, 1) {}
   void expect_limit(std::uint64_t mib, const std::string& origin) const {
-    const MemoryLimit limit = detect();
+    const MemoryLimit limit = detect_memory_limit(sources());
     EXPECT_EQ(limit.bytes, mib * kMiB);
     EXPECT_EQ(limit.origin, origin);
   }
   void expect_no_limit() const { expect_limit(kMachine / kMiB, kMachineOrigin); }
-
-  TempDir dir_;
-  std::map<std::string, std::string> variables_;
 };
 
 TEST_F(MemoryLimitTest, MachineIsTheLimitWhereNothingElseIsSaid) {
@@ -190,33 +167,33 @@ TEST_F(MemoryLimitTest, BrokenFilesSayNothing) {
 }
 
 TEST_F(MemoryLimitTest, SlurmLimitsPerNode) {
-  variables_["SLURM_MEM_PER_NODE"] = "4096";
+  variable_is("SLURM_MEM_PER_NODE", "4096");
   expect_limit(4096, "SLURM_MEM_PER_NODE");
 }
 
 TEST_F(MemoryLimitTest, SlurmLimitsPerCpuTimesCpus) {
-  variables_["SLURM_MEM_PER_CPU"] = "2048";
+  variable_is("SLURM_MEM_PER_CPU", "2048");
   expect_no_limit();
-  variables_["SLURM_CPUS_ON_NODE"] = "3";
+  variable_is("SLURM_CPUS_ON_NODE", "3");
   expect_limit(6144, "SLURM_MEM_PER_CPU times SLURM_CPUS_ON_NODE");
 }
 
 TEST_F(MemoryLimitTest, ZeroIsNoLimitInSlurm) {
-  variables_["SLURM_MEM_PER_NODE"] = "0";
-  variables_["SLURM_MEM_PER_CPU"] = "0";
-  variables_["SLURM_CPUS_ON_NODE"] = "8";
+  variable_is("SLURM_MEM_PER_NODE", "0");
+  variable_is("SLURM_MEM_PER_CPU", "0");
+  variable_is("SLURM_CPUS_ON_NODE", "8");
   expect_no_limit();
 }
 
 TEST_F(MemoryLimitTest, SlurmNumbersTooLargeAreNoLimit) {
-  variables_["SLURM_MEM_PER_NODE"] = "17592186044416";  // times 2^20 is 2^64
-  variables_["SLURM_MEM_PER_CPU"] = "17592186044417";
-  variables_["SLURM_CPUS_ON_NODE"] = "18446744073709551615";
+  variable_is("SLURM_MEM_PER_NODE", "17592186044416");  // times 2^20 is 2^64
+  variable_is("SLURM_MEM_PER_CPU", "17592186044417");
+  variable_is("SLURM_CPUS_ON_NODE", "18446744073709551615");
   expect_no_limit();
 }
 
 TEST_F(MemoryLimitTest, SlurmNumbersWithUnitsAreNotGuessedAt) {
-  variables_["SLURM_MEM_PER_NODE"] = "4G";
+  variable_is("SLURM_MEM_PER_NODE", "4G");
   expect_no_limit();
 }
 
@@ -224,9 +201,9 @@ TEST_F(MemoryLimitTest, SmallestOfAllCounts) {
   group_is("0::/job\n");
   mounts_are(kV2Mount);
   file("/sys/fs/cgroup/job/memory.max", "1073741824");
-  variables_["SLURM_MEM_PER_NODE"] = "2048";
+  variable_is("SLURM_MEM_PER_NODE", "2048");
   expect_limit(1024, "/sys/fs/cgroup/job/memory.max");
-  variables_["SLURM_MEM_PER_NODE"] = "512";
+  variable_is("SLURM_MEM_PER_NODE", "512");
   expect_limit(512, "SLURM_MEM_PER_NODE");
 }
 
