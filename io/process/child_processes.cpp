@@ -72,10 +72,10 @@ void read_rest(Descriptor& pipe, const Add& add) {
 }
 
 /// False while it runs.
-bool reap(pid_t pid, int options, int& status, rusage& usage) {
+bool reap(pid_t pid, int& status, rusage& usage) {
   pid_t reaped = -1;
   do {
-    reaped = ::wait4(pid, &status, options, &usage);
+    reaped = ::wait4(pid, &status, WNOHANG, &usage);
   } while (reaped < 0 && errno == EINTR);
   if (reaped < 0) {
     throw Error(ErrorKind::kInternal, "cannot wait for a child process: " + errno_text());
@@ -160,23 +160,28 @@ void ChildProcesses::wait_for_news() {
 
 void ChildProcesses::look_after_all() {
   for (Child& child : children_) {
-    if (child.ended) continue;
-    StartedChild& process = child.process;
-    const auto add_to_out = [&](std::string_view text) { add_out(child.end, text); };
-    const auto add_to_messages = [&](std::string_view text) { child.end.messages.add(text); };
+    if (!child.ended) look_after(child);
+  }
+}
+
+void ChildProcesses::look_after(Child& child) {
+  StartedChild& process = child.process;
+  const auto add_to_out = [&](std::string_view text) { add_out(child.end, text); };
+  const auto add_to_messages = [&](std::string_view text) { child.end.messages.add(text); };
+  int status = 0;
+  rusage usage{};
+  child.ended = reap(process.pid, status, usage);
+  if (!child.ended) {
     if (process.out) read_some(process.out, kReadBytes, add_to_out);
     if (process.err) read_some(process.err, kReadBytes, add_to_messages);
-    int status = 0;
-    rusage usage{};
-    if (!reap(process.pid, WNOHANG, status, usage)) continue;
-    read_rest(process.out, add_to_out);
-    read_rest(process.err, add_to_messages);
-    process.ended = Descriptor();
-    note_end(child.end, status, usage);
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - child.start;
-    child.end.wall_seconds = wall.count();
-    child.ended = true;
+    return;
   }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - child.start;
+  child.end.wall_seconds = wall.count();
+  note_end(child.end, status, usage);
+  read_rest(process.out, add_to_out);
+  read_rest(process.err, add_to_messages);
+  process.ended = Descriptor();
 }
 
 std::optional<ChildEnd> ChildProcesses::take_ended() {

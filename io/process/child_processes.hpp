@@ -53,6 +53,7 @@ class ChildProcesses {
 
   void wait_for_news();
   void look_after_all();
+  static void look_after(Child& child);
   std::optional<ChildEnd> take_ended();
 
   StopSignals& stop_;

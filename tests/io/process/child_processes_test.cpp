@@ -145,6 +145,17 @@ TEST_F(ChildProcessesTest, ClosedStreamsAreNotTheEnd) {
   EXPECT_EQ(end.exit_code, 6);
 }
 
+TEST_F(ChildProcessesTest, WhatAnEndedChildHasLeftInItsPipesIsRead) {
+  children_.start(0, shell("echo out; echo err >&2"));
+  siginfo_t ended{};
+  ASSERT_TRUE(happens([&] {
+    return ::waitid(P_ALL, 0, &ended, WEXITED | WNOWAIT | WNOHANG) == 0 && ended.si_pid != 0;
+  }));
+  const ChildEnd end = wait();
+  EXPECT_EQ(end.out, "out\n");
+  EXPECT_EQ(end.messages.tail(), "err\n");
+}
+
 TEST_F(ChildProcessesTest, AProgramLeftBehindThatHoldsThePipesIsNotWaitedFor) {
   const ChildEnd end = run("(" + sleeper("left") + ") & echo out; echo err >&2; exit 2");
   EXPECT_EQ(end.exit_code, 2);
@@ -155,7 +166,7 @@ TEST_F(ChildProcessesTest, AProgramLeftBehindThatHoldsThePipesIsNotWaitedFor) {
 }
 
 TEST_F(ChildProcessesTest, AProgramLeftBehindThatWritesForEverIsNotWaitedFor) {
-  const ChildEnd end = run("yes & echo $! >&2; exit 2");
+  const ChildEnd end = run("yes & echo $! >&2; sleep 0.2; exit 2");
   EXPECT_EQ(end.exit_code, 2);
   ::kill(std::stoi(end.messages.tail()), SIGKILL);  // if its closed pipe has not ended it
 }
@@ -207,8 +218,15 @@ TEST_F(ChildProcessesTest, ChildrenAreTheFirstToGoWhenMemoryRunsOut) {
 }
 
 TEST_F(ChildProcessesTest, ChildrenReadNothing) {
-  const ChildEnd end = run("cat; readlink /proc/self/fd/0");
-  EXPECT_EQ(end.out, "/dev/null\n");
+  const std::string input = dir_.write("input", "text");
+  OtherProcess process([&] {
+    if (::dup2(::open(input.c_str(), O_RDONLY), STDIN_FILENO) < 0) return 1;
+    StopSignals stop;
+    ChildProcesses children(stop);
+    children.start(0, shell("cat; readlink /proc/self/fd/0"));
+    return children.wait().value().out == "/dev/null\n" ? 0 : 2;
+  });
+  EXPECT_EQ(process.wait().value(), 0);
 }
 
 TEST_F(ChildProcessesTest, ChildrenHaveOnlyTheStandardDescriptors) {
