@@ -11,7 +11,7 @@ namespace atlasgauge {
 namespace {
 
 constexpr std::uint64_t kMiB = 1 << 20;
-constexpr std::uint64_t kMachine = 64 * 1024 * kMiB;
+constexpr std::uint64_t kMachine = 65536 * kMiB;
 constexpr const char* kMachineOrigin = "the machine's memory";
 constexpr const char* kV2Mount =
     "31 23 0:28 / /sys/fs/cgroup rw,nosuid shared:4 - cgroup2 cgroup2 rw,nsdelegate\n";
