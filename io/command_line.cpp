@@ -5,9 +5,13 @@
 #include <bit>
 #include <charconv>
 #include <cstdlib>
+#include <utility>
+#include <variant>
 
 #include "io/bytes.hpp"
+#include "io/corpus/corpus_command_line.hpp"
 #include "io/error.hpp"
+#include "io/program_identity.hpp"
 #include "io/suffix.hpp"
 #include "io/table_file.hpp"
 
@@ -120,7 +124,7 @@ void describe(CLI::App& app, Options& options, Texts& texts) {
                  "for tests: side of a tile of a texture, in texels")
       ->type_name("N")
       ->group("Testing");
-  app.set_version_flag("--version", std::string("atlasgauge ") + ATLASGAUGE_VERSION);
+  app.set_version_flag("--version", "atlasgauge " + program_version());
 }
 
 std::optional<std::uint64_t> optional_bytes(const std::string& text) {
@@ -144,15 +148,26 @@ void check(Options& options, const Texts& texts) {
   if (options.tmp_dir.empty()) options.tmp_dir = default_tmp_dir();
 }
 
+CommandLine corpus_line(std::vector<std::string> arguments) {
+  CommandLine line;
+  auto parsed = parse_corpus_command(std::move(arguments));
+  if (auto* const text = std::get_if<std::string>(&parsed)) line.text = std::move(*text);
+  if (auto* const command = std::get_if<CorpusCommand>(&parsed)) line.corpus = std::move(*command);
+  return line;
+}
+
 }  // namespace
 
 CommandLine parse_command_line(std::vector<std::string> arguments) {
-  if (!arguments.empty() && arguments.front() == "measure") arguments.erase(arguments.begin());
+  const std::string first = arguments.empty() ? "" : arguments.front();
+  if (first == "measure" || first == "corpus") arguments.erase(arguments.begin());
+  if (first == "corpus") return corpus_line(std::move(arguments));
   CommandLine line;
   Texts texts;
   CLI::App app(
       "Measures a textured mesh that need not fit in memory.\n"
-      "Usage: atlasgauge [measure] MODEL... [OPTIONS]");
+      "Usage: atlasgauge [measure] MODEL... [OPTIONS]\n"
+      "       atlasgauge corpus plan|run|status|gather ...");
   describe(app, line.options, texts);
   std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them last first
   try {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "io/corpus/corpus_command.hpp"
+#include "io/progress_bar.hpp"
 #include "io/texture/texture_slots.hpp"
 
 namespace atlasgauge {
-
-enum class ProgressMode { kAuto, kAlways, kNever };
 
 enum class RasterChoice { kScalar, kOsmesa };
 
@@ -38,9 +38,11 @@ struct Options {
   bool estimate = false;  ///< say what a run would cost instead of measuring
 };
 
-/// What a command line comes to: options, or a text to print instead of working (help, version).
+/// What a command line comes to: options of `measure`, a command of `corpus`, or a text to print
+/// instead of working (help, version).
 struct CommandLine {
   Options options;
+  std::optional<CorpusCommand> corpus;
   std::optional<std::string> text;
 };
 

@@ -1,5 +1,7 @@
 #include "io/progress_bar.hpp"
 
+#include <unistd.h>
+
 #include <cstdio>
 
 namespace atlasgauge {
@@ -14,6 +16,11 @@ void put(const std::string& text) {
 }
 
 }  // namespace
+
+bool shows_progress(ProgressMode mode) {
+  return mode == ProgressMode::kAlways ||
+         (mode == ProgressMode::kAuto && ::isatty(STDERR_FILENO) == 1);
+}
 
 void ProgressBar::update(const std::string& stage, double fraction) noexcept {
   if (!shown_) return;

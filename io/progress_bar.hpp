@@ -5,6 +5,11 @@
 
 namespace atlasgauge {
 
+enum class ProgressMode { kAuto, kAlways, kNever };
+
+/// Whether a bar is wanted: as said, or where standard error is a terminal.
+bool shows_progress(ProgressMode mode);
+
 /// One line on standard error that shows how far a stage is, rewritten in place. Other messages go
 /// through message(), so that they do not land in the bar. Nothing fails when standard error does.
 /// Thread-safe.

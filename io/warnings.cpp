@@ -24,7 +24,7 @@ void Warnings::count(const std::string& kind, std::uint64_t more) {
   totals_[kind] += more;
 }
 
-std::map<std::string, std::uint64_t> Warnings::totals() const {
+WarningTotals Warnings::totals() const {
   const std::lock_guard lock(mutex_);
   return totals_;
 }

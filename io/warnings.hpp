@@ -2,9 +2,10 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <mutex>
 #include <string>
+
+#include "io/warning_totals.hpp"
 
 namespace atlasgauge {
 
@@ -25,13 +26,13 @@ class Warnings {
   void count(const std::string& kind, std::uint64_t more);
 
   /// Occurrences by kind.
-  std::map<std::string, std::uint64_t> totals() const;
+  WarningTotals totals() const;
 
  private:
   Printer printer_;
   bool strict_;
   mutable std::mutex mutex_;
-  std::map<std::string, std::uint64_t> totals_;
+  WarningTotals totals_;
 };
 
 }  // namespace atlasgauge

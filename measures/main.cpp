@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "io/command_line.hpp"
@@ -23,10 +24,13 @@
 #include "io/file/output_folder.hpp"
 #include "io/image/image_reader.hpp"
 #include "io/open_parts.hpp"
+#include "io/process/stop_signals.hpp"
 #include "io/progress_bar.hpp"
 #include "io/texture/texture_slots.hpp"
+#include "io/warning_totals.hpp"
 #include "io/warnings.hpp"
 #include "measures/base/measure_set.hpp"
+#include "measures/corpus/corpus.hpp"
 #include "measures/mapping.hpp"
 #include "measures/output/chart_table.hpp"
 #include "measures/output/estimate_text.hpp"
@@ -46,11 +50,6 @@ namespace {
 /// Standard error takes what it can; no run fails for it.
 void remark(const char* text) {
   std::fputs(text, stderr);
-}
-
-bool shows_progress(const Options& options) {
-  if (options.quiet || options.progress == ProgressMode::kNever) return false;
-  return options.progress == ProgressMode::kAlways || ::isatty(STDERR_FILENO) == 1;
 }
 
 MemoryPlan plan_for(const Options& options) {
@@ -125,7 +124,7 @@ void measure(const Options& options) {
   MemoryBudget budget(plan.engine_bytes);
   Scratch scratch({options.tmp_dir, plan.block_bytes, plan.resident_bytes, plan.queued_blocks},
                   budget);
-  ProgressBar bar(shows_progress(options));
+  ProgressBar bar(!options.quiet && shows_progress(options.progress));
   StageLog log(scratch, workers,
                [&](const std::string& stage, double done) { bar.update(stage, done); });
   const Engine engine{budget, scratch, workers, log};
@@ -169,8 +168,18 @@ void measure(const Options& options) {
   if (seams) seams->commit();
   if (options.json_path) write_report(*options.json_path, report);
   write_text(options, summary_of(facts, report));
+  if (!options.quiet) remark(warnings_line(warnings.totals()).c_str());
   if (options.verbose) remark(cost_of(engine, plan, facts).c_str());
 }
+
+/// The commands of `corpus`, by the kind of their options.
+struct CorpusCommands {
+  int operator()(const CorpusPlanOptions& options) const { return plan_corpus(options); }
+  int operator()(const CorpusProbeOptions& options) const { return probe_corpus(options); }
+  int operator()(const CorpusRunOptions& options) const { return run_corpus(options); }
+  int operator()(const CorpusStatusOptions& options) const { return show_corpus(options); }
+  int operator()(const CorpusGatherOptions& options) const { return gather_corpus(options); }
+};
 
 int run(const std::vector<std::string>& arguments) {
   const CommandLine line = parse_command_line(arguments);
@@ -178,6 +187,7 @@ int run(const std::vector<std::string>& arguments) {
     write_file("-", *line.text);
     return 0;
   }
+  if (line.corpus) return std::visit(CorpusCommands(), *line.corpus);
   line.options.estimate ? estimate(line.options) : measure(line.options);
   return 0;
 }
@@ -220,7 +230,9 @@ int main(int argc, char** argv) {
   std::set_terminate(atlasgauge::end_at_once);
   try {
     atlasgauge::prepare_process();
-    return atlasgauge::run(std::vector<std::string>(argv + 1, argv + argc));
+    const int code = atlasgauge::run(std::vector<std::string>(argv + 1, argv + argc));
+    if (code > 128) atlasgauge::die_by(code - 128);
+    return code;
   } catch (...) {
     return atlasgauge::tell_caught();
   }

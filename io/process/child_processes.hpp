@@ -30,7 +30,7 @@ struct ChildEnd {
 /// Child processes that run beside each other. Those that still run when it goes are killed.
 class ChildProcesses {
  public:
-  static constexpr std::size_t kMostOutBytes = 16 << 20;
+  static constexpr std::size_t kMostOutBytes = 256 << 20;
 
   /// `stop` must outlive it.
   explicit ChildProcesses(StopSignals& stop);

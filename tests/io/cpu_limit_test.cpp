@@ -1,5 +1,6 @@
 #include "io/cpu_limit.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sched.h>
 
@@ -97,7 +98,7 @@ TEST_F(CpuLimitTest, GroupsOfOtherControllersDoNotCount) {
 
 TEST_F(CpuLimitTest, BrokenFilesSayNothing) {
   group_is("4:cpu:/job\n0::/job\n");
-  mounts_are(std::string(kV1Mount) + kV2Mount);
+  mounts_are(fmt::format("{}{}", kV1Mount, kV2Mount));
   for (const char* content : {"", "many", "100000", "-1 100000", "1 0", "0 100000", "1 1 1", "1 x",
                               " ", "99999999999999999999999 1"}) {
     file("/sys/fs/cgroup/job/cpu.max", content);

@@ -1,0 +1,95 @@
+#include "io/corpus/model_result.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "io/error.hpp"
+#include "io/file/output_file.hpp"
+#include "io/file/output_folder.hpp"
+#include "io/program_identity.hpp"
+
+namespace atlasgauge {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kMeasured = "measured";
+constexpr const char* kFailed = "failed";
+
+/// Texts may hold any bytes; JSON holds UTF-8 only.
+std::string line_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json head_of(const ModelResult& result) {
+  return {{"model", result.model},
+          {"program", result.program},
+          {"status", result.measured ? kMeasured : kFailed},
+          {"reason", result.reason},
+          {"warnings", result.warnings}};
+}
+
+/// Throws an exception of the JSON library where something is missing or of another kind.
+ModelResult result_from(const Json& head) {
+  ModelResult result;
+  head.at("model").get_to(result.model);
+  head.at("program").get_to(result.program);
+  head.at("reason").get_to(result.reason);
+  head.at("warnings").get_to(result.warnings);
+  result.measured = head.at("status") == kMeasured;
+  return result;
+}
+
+/// "-t64x64-lod3-strict" for -t 64x64 --lod 3 --strict.
+std::string name_of(const std::vector<std::string>& arguments) {
+  std::string name;
+  for (const std::string& argument : arguments) {
+    const std::size_t dashes = argument.find_first_not_of('-');
+    if (dashes > 0) name += '-';
+    name += argument.substr(dashes);
+  }
+  return name;
+}
+
+}  // namespace
+
+ResultStore::ResultStore(const CorpusJob& job, const CorpusSettings& settings)
+    : folder_(job.results_path()),
+      suffix_("-" + program_identity() + name_of(settings.arguments) + ".result") {}
+
+/// In folders of 1/256 of them.
+std::string ResultStore::path_of(const std::string& digest) const {
+  return folder_ + "/" + digest.substr(0, 2) + "/" + digest + suffix_;
+}
+
+std::optional<ModelResult> ResultStore::find(const std::string& digest) const {
+  std::ifstream file(path_of(digest), std::ios::binary);
+  std::string line;
+  if (!std::getline(file, line)) return std::nullopt;
+  try {
+    return result_from(Json::parse(line));
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+std::string ResultStore::report(const std::string& digest) const {
+  std::ifstream file(path_of(digest), std::ios::binary);
+  std::string line;
+  if (!std::getline(file, line)) {
+    throw Error(ErrorKind::kInput, path_of(digest), 0, "the result went away while it was read");
+  }
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void ResultStore::write(const std::string& digest, const ModelResult& result,
+                        std::string_view report) const {
+  make_output_folder(folder_ + "/" + digest.substr(0, 2));
+  OutputFile file(path_of(digest));
+  file.append(line_of(head_of(result)));
+  file.append(report);
+  file.commit();
+}
+
+}  // namespace atlasgauge

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "io/corpus/corpus_job.hpp"
+#include "io/error.hpp"
+#include "io/file/output_file.hpp"
+#include "io/warnings.hpp"
+#include "measures/corpus/corpus.hpp"
+#include "measures/corpus/corpus_rows.hpp"
+#include "measures/corpus/corpus_table.hpp"
+
+namespace atlasgauge {
+namespace {
+
+void remark(const std::string& line) {
+  std::fputs((line + "\n").c_str(), stderr);
+}
+
+void write_reports(const CorpusRows& rows, const std::string& folder) {
+  for (const CorpusRow& row : rows.all()) {
+    const auto report = rows.report(row);
+    if (!report) continue;
+    const std::filesystem::path path = std::filesystem::path(folder) / (row.path + ".json");
+    std::error_code fault;
+    std::filesystem::create_directories(path.parent_path(), fault);
+    if (fault) {
+      throw Error(ErrorKind::kResource, path.parent_path().string(), 0,
+                  "the folder cannot be made: " + fault.message());
+    }
+    write_file(path.string(), *report);
+  }
+}
+
+/// Names what is missing; returns how much that is.
+std::size_t tell(const CorpusRows& rows, const CorpusJob& job) {
+  std::size_t measured = 0, failed = 0, missing = 0;
+  for (const CorpusRow& row : rows.all()) {
+    if (!row.result) remark("missing: " + row.path);
+    ++(!row.result ? missing : row.is_measured() ? measured : failed);
+  }
+  write_file("-", fmt::format("{} models: {} measured, {} failed, {} missing; in {} and {}\n",
+                              rows.all().size(), measured, failed, missing, job.table_path(".csv"),
+                              job.table_path(".jsonl")));
+  return missing;
+}
+
+}  // namespace
+
+int gather_corpus(const CorpusGatherOptions& options) {
+  const CorpusJob job(options.job);
+  Warnings warnings([](const std::string& text) { remark("warning: " + text); });
+  const CorpusRows rows(job, warnings);
+  write_corpus_csv(rows, job.table_path(".csv"));
+  write_corpus_json_lines(rows, job.table_path(".jsonl"));
+  if (options.reports) write_reports(rows, *options.reports);
+  return tell(rows, job) > 0 ? 1 : 0;
+}
+
+}  // namespace atlasgauge

@@ -1,0 +1,206 @@
+// The hard protocol is what may be done twice, and what may not:
+//
+// - A result is written when the process that measured the model has ended by itself, and the
+//   model's files still are what their digest was made of. Whatever ends this task before, leaves
+//   nothing, and the next run measures the model again.
+// - A model that fails by its own fault has a result that says so. One that was refused for lack of
+//   memory or disk is tried once more when all others are done, alone, with everything that the
+//   task has; one that was killed, or whose files changed meanwhile, up to twice. After that it has
+//   no result, and is missing.
+// - A model that brought the whole task down is known by the attempts that it began (AttemptLog),
+//   and comes last when the task starts again.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "io/bytes.hpp"
+#include "io/corpus/attempt_log.hpp"
+#include "io/corpus/corpus_job.hpp"
+#include "io/corpus/corpus_models.hpp"
+#include "io/corpus/model_result.hpp"
+#include "io/error.hpp"
+#include "io/file/output_file.hpp"
+#include "io/process/child_processes.hpp"
+#include "io/process/stop_signals.hpp"
+#include "io/program_identity.hpp"
+#include "measures/corpus/corpus.hpp"
+#include "measures/corpus/corpus_progress.hpp"
+#include "measures/corpus/model_run.hpp"
+#include "measures/corpus/task_share.hpp"
+
+namespace atlasgauge {
+namespace {
+
+constexpr std::size_t kMostTries = 3;
+
+/// A model to measure.
+struct Task {
+  CurrentModel model;
+  std::size_t tries = 0;
+
+  const std::string& path() const { return model.planned.path; }
+  const std::string& digest() const { return model.planned.digest; }
+};
+
+struct Counts {
+  std::size_t before = 0;  ///< had a result already
+  std::size_t measured = 0;
+  std::size_t failed = 0;
+  std::size_t missing = 0;
+};
+
+class SliceRun {
+ public:
+  explicit SliceRun(const CorpusRunOptions& options)
+      : options_(options),
+        job_(options.job),
+        settings_(job_.read_settings()),
+        results_(job_, settings_),
+        log_(job_, options.slice ? std::to_string(*options.slice) : "all"),
+        progress_(options.progress, options.quiet),
+        children_(stop_) {
+    if (options.slice && *options.slice >= settings_.slices) {
+      throw Error(ErrorKind::kUsage, fmt::format("there is no slice {}; the job has 0 to {}",
+                                                 *options.slice, settings_.slices - 1));
+    }
+  }
+
+  int run() {
+    collect();
+    total_ = waiting_.size();
+    if (total_ > 0) {
+      share_ = share_of_task(options_, total_);
+      measure_waiting(share_.jobs);
+      alone_ = true;
+      waiting_ = std::exchange(again_, {});
+      measure_waiting(1);
+    }
+    progress_.clear();
+    if (stop_.taken() != 0) return 128 + stop_.taken();
+    if (!options_.quiet) write_file("-", summary());
+    return counts_.missing > 0 ? 1 : 0;
+  }
+
+ private:
+  /// The models without a result: those that were begun before last, and of others the one that
+  /// takes longest first, so that none is left over at the end.
+  void collect() {
+    CorpusModels models(job_, settings_);
+    while (auto model = models.next(options_.slice)) {
+      if (results_.find(model->planned.digest)) {
+        ++counts_.before;
+      } else {
+        waiting_.push_back({std::move(*model)});
+      }
+    }
+    const std::map<std::string, Attempts> attempts = read_attempts(job_);
+    const auto begun = [&](const Task& task) {
+      const auto found = attempts.find(task.digest());
+      return found == attempts.end() ? 0 : found->second.begun;
+    };
+    std::ranges::stable_sort(waiting_, [&](const Task& a, const Task& b) {
+      return std::tuple(begun(a), -a.model.planned.seconds) <
+             std::tuple(begun(b), -b.model.planned.seconds);
+    });
+  }
+
+  /// Works on all that wait, and on what is put among them meanwhile.
+  void measure_waiting(std::size_t side_by_side) {
+    const ModelShare share = share_.of_one(side_by_side);
+    while (stop_.taken() == 0 && (next_ < waiting_.size() || children_.running() > 0)) {
+      while (next_ < waiting_.size() && children_.running() < side_by_side) begin(next_++, share);
+      const std::optional<ChildEnd> end = children_.wait();
+      if (end) settle(waiting_[end->tag], *end);
+    }
+    next_ = 0;
+  }
+
+  void begin(std::size_t tag, const ModelShare& share) {
+    Task& task = waiting_[tag];
+    ++task.tries;
+    bring_up_to_date(settings_, task.model);
+    log_.began(task.digest());
+    const std::string path = settings_.root + "/" + task.path();
+    children_.start(tag, measure_command(path, settings_.arguments, share));
+  }
+
+  void settle(Task& task, const ChildEnd& end) {
+    ModelOutcome outcome = outcome_of(end, settings_.root);
+    if (!unchanged(task.model.inputs)) {
+      outcome = {Outcome::kKilled, "its files changed while it was measured", {}};
+    }
+    switch (outcome.outcome) {
+      case Outcome::kMeasured:
+        keep(task, outcome, end.out);
+        ++counts_.measured;
+        return tell(fmt::format("measured {} ({:.1f} s, {})", task.path(), end.wall_seconds,
+                                format_bytes(end.peak_resident_bytes)));
+      case Outcome::kFailed:
+        keep(task, outcome, "");
+        ++counts_.failed;
+        return tell("failed " + task.path() + ": " + outcome.reason);
+      case Outcome::kRefused:
+      case Outcome::kKilled:
+        return give_up_or_put_off(task, outcome);
+    }
+  }
+
+  void keep(const Task& task, const ModelOutcome& outcome, const std::string& report) {
+    results_.write(task.digest(),
+                   {task.path(), "atlasgauge " + program_version(),
+                    outcome.outcome == Outcome::kMeasured, outcome.reason, outcome.warnings},
+                   report);
+  }
+
+  void give_up_or_put_off(Task& task, const ModelOutcome& outcome) {
+    const bool refused = outcome.outcome == Outcome::kRefused;
+    const bool had_all = alone_ || share_.jobs == 1;
+    if (refused ? !had_all : task.tries < kMostTries) {
+      progress_.message("put off " + task.path() + ": " + outcome.reason);
+      (alone_ ? waiting_ : again_).push_back(task);
+      return;
+    }
+    const std::string reason =
+        refused ? outcome.reason : fmt::format("{}, {} times", outcome.reason, task.tries);
+    log_.came_to_nothing(task.digest(), reason);
+    ++counts_.missing;
+    tell("missing " + task.path() + ": " + reason);
+  }
+
+  void tell(const std::string& line) { progress_.model(line, ++done_, total_); }
+
+  std::string summary() const {
+    return fmt::format("{} measured, {} failed, {} missing; {} had a result already\n",
+                       counts_.measured, counts_.failed, counts_.missing, counts_.before);
+  }
+
+  const CorpusRunOptions& options_;
+  const CorpusJob job_;
+  const CorpusSettings settings_;
+  const ResultStore results_;
+  AttemptLog log_;
+  CorpusProgress progress_;
+  StopSignals stop_;
+  ChildProcesses children_;
+  TaskShare share_;
+  std::vector<Task> waiting_;
+  std::vector<Task> again_;  ///< to be measured alone, when all others are done
+  std::size_t next_ = 0;     ///< in waiting_
+  bool alone_ = false;
+  Counts counts_;
+  std::size_t done_ = 0, total_ = 0;
+};
+
+}  // namespace
+
+int run_corpus(const CorpusRunOptions& options) {
+  return SliceRun(options).run();
+}
+
+}  // namespace atlasgauge
