@@ -158,7 +158,7 @@ pick_ports() {
 # cred_expire: a requeued job starts only when its old credential is over, 120 s by default.
 # TmpFS: the steps of all nodes would use the same files in /tmp otherwise.
 # linuxproc, none: there may be no cgroups to write to; so memory limits are not enforced.
-# SlurmdTimeout, MessageTimeout: how soon a lost node is noticed, 300 s by default.
+# SlurmdTimeout: how soon a lost node is noticed, 300 s by default.
 write_configuration() {
   local port=$1 host user
   host=$(uname -n)
@@ -197,8 +197,7 @@ SelectTypeParameters=CR_Core_Memory
 DefMemPerCPU=500
 MpiDefault=none
 ReturnToService=2
-SlurmdTimeout=${VIRTUAL_SLURM_NODE_TIMEOUT:-6}
-MessageTimeout=${VIRTUAL_SLURM_MESSAGE_TIMEOUT:-10}
+SlurmdTimeout=6
 KillWait=5
 MinJobAge=3600
 SlurmdParameters=config_overrides
@@ -215,7 +214,7 @@ wait_until() {
     "$@" >/dev/null 2>&1 && return
     sleep 0.1
   done
-  die "$what: not within 30 s and more"
+  die "$what is not ready after 30 s and more"
 }
 
 is_munge_up() { munge -S "$run/munge.socket" -n; }
@@ -226,6 +225,7 @@ is_controller_up() { timeout 5 scontrol ping | grep -q 'is UP'; }
 is_idle() { [ -n "$(timeout 5 sinfo -h -N -n "$1" -t idle -o %N)" ]; }
 
 # With a key and a socket of its own, as whatever user: the system's munged need not run.
+# The folders above the socket must be open to all.
 start_munged() {
   [ -s "$state/munge.key" ] || mungekey --create --keyfile="$state/munge.key"
   start_daemon munged munged --foreground --num-threads=2 --key-file="$state/munge.key" \
@@ -246,6 +246,7 @@ start_node() {
 
 up() {
   check_installed
+  [ ${#run} -le 90 ] || die "too long a path for a socket: $run"
   mkdir -p "$run" "$logs" "$state/controller"
   chmod 755 "$state" "$run"
   [ -s "$SLURM_CONF" ] || write_configuration "$(pick_ports)"
@@ -259,10 +260,11 @@ up() {
   for node in "${fresh[@]}"; do wait_until "node $node" is_idle "$node"; done
 }
 
+# The controller first: it would wait for answers of nodes that are gone.
 down() {
   local node
-  for node in $(nodes); do kill_node "$node"; done
   end_daemon slurmctld
+  for node in $(nodes); do kill_node "$node"; done
   end_daemon munged
   rm -rf "$SLURM_CONF" "$state/controller" "$state"/node-n*
 }
