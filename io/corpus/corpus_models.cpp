@@ -20,9 +20,13 @@ InputDigest digest_model(const std::string& root, const std::string& path,
   return digest_inputs(root, list_model_inputs(root + "/" + path, {.lod = lod}).files);
 }
 
+InputDigest digest_model(const CorpusSettings& settings, const std::string& path) {
+  return digest_model(settings.root, path, lod_of(settings.arguments));
+}
+
 void bring_up_to_date(const CorpusSettings& settings, CurrentModel& model) {
   if (unchanged(model.inputs)) return;
-  InputDigest now = digest_model(settings.root, model.planned.path, lod_of(settings.arguments));
+  InputDigest now = digest_model(settings, model.planned.path);
   model.planned.digest = std::move(now.hex);
   model.planned.bytes = now.bytes;
   model.planned.files = now.files.size();

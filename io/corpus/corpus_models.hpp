@@ -15,6 +15,7 @@ namespace atlasgauge {
 /// the root; `lod` as given to `measure`.
 InputDigest digest_model(const std::string& root, const std::string& path,
                          std::optional<std::uint32_t> lod);
+InputDigest digest_model(const CorpusSettings& settings, const std::string& path);
 
 /// A model with the files that its digest is of.
 struct CurrentModel {

@@ -1,7 +1,8 @@
 // The hard protocol is what may be done twice, and what may not:
 //
 // - A result is written when the process that measured the model has ended by itself, and the
-//   model's files still are what their digest was made of. Whatever ends this task before, leaves
+//   model's files still are what their digest was made of (for a failure they are read again, as
+//   it may be the disk's). Whatever ends this task before, leaves
 //   nothing, and the next run measures the model again.
 // - A model that fails by its own fault has a result that says so. One that was refused for lack of
 //   memory or disk is tried once more when all others are done, alone, with everything that the
@@ -48,6 +49,13 @@ struct Task {
   const std::string& digest() const { return model.planned.digest; }
 };
 
+std::string slice_name(const CorpusRunOptions& options, const CorpusSettings& settings) {
+  if (!options.slice) return "all";
+  if (*options.slice < settings.slices) return std::to_string(*options.slice);
+  throw Error(ErrorKind::kUsage, fmt::format("there is no slice {}; the job has 0 to {}",
+                                             *options.slice, settings.slices - 1));
+}
+
 struct Counts {
   std::size_t before = 0;  ///< had a result already
   std::size_t measured = 0;
@@ -62,14 +70,9 @@ class SliceRun {
         job_(options.job),
         settings_(job_.read_settings()),
         results_(job_, settings_),
-        log_(job_, options.slice ? std::to_string(*options.slice) : "all"),
+        log_(job_, slice_name(options, settings_)),
         progress_(options.progress, options.quiet),
-        children_(stop_) {
-    if (options.slice && *options.slice >= settings_.slices) {
-      throw Error(ErrorKind::kUsage, fmt::format("there is no slice {}; the job has 0 to {}",
-                                                 *options.slice, settings_.slices - 1));
-    }
-  }
+        children_(stop_) {}
 
   int run() {
     collect();
@@ -92,7 +95,9 @@ class SliceRun {
   /// takes longest first, so that none is left over at the end.
   void collect() {
     CorpusModels models(job_, settings_);
-    while (auto model = models.next(options_.slice)) {
+    while (!stop_.take()) {
+      auto model = models.next(options_.slice);
+      if (!model) break;
       if (results_.find(model->planned.digest)) {
         ++counts_.before;
       } else {
@@ -132,7 +137,7 @@ class SliceRun {
 
   void settle(Task& task, const ChildEnd& end) {
     ModelOutcome outcome = outcome_of(end, settings_.root);
-    if (!unchanged(task.model.inputs)) {
+    if (!is_as_it_was(task, outcome.outcome)) {
       outcome = {Outcome::kKilled, "its files changed while it was measured", {}};
     }
     switch (outcome.outcome) {
@@ -151,6 +156,13 @@ class SliceRun {
     }
   }
 
+  /// A failure may come from a disk that did not answer: it counts when all can be read again.
+  bool is_as_it_was(const Task& task, Outcome outcome) const {
+    if (!unchanged(task.model.inputs)) return false;
+    if (outcome != Outcome::kFailed) return true;
+    return digest_model(settings_, task.path()).hex == task.digest();
+  }
+
   void keep(const Task& task, const ModelOutcome& outcome, const std::string& report) {
     results_.write(task.digest(),
                    {task.path(), "atlasgauge " + program_version(),
@@ -162,7 +174,7 @@ class SliceRun {
     const bool refused = outcome.outcome == Outcome::kRefused;
     const bool had_all = alone_ || share_.jobs == 1;
     if (refused ? !had_all : task.tries < kMostTries) {
-      progress_.message("put off " + task.path() + ": " + outcome.reason);
+      if (!options_.quiet) progress_.message("put off " + task.path() + ": " + outcome.reason);
       (alone_ ? waiting_ : again_).push_back(task);
       return;
     }
@@ -170,7 +182,9 @@ class SliceRun {
         refused ? outcome.reason : fmt::format("{}, {} times", outcome.reason, task.tries);
     log_.came_to_nothing(task.digest(), reason);
     ++counts_.missing;
-    tell("missing " + task.path() + ": " + reason);
+    const std::string line = "missing " + task.path() + ": " + reason;
+    if (options_.quiet) progress_.message(line);
+    tell(line);
   }
 
   void tell(const std::string& line) { progress_.model(line, ++done_, total_); }

@@ -260,6 +260,15 @@ TEST_F(CorpusTest, WithoutATerminalThereIsALineAModel) {
   EXPECT_EQ(run({"-q"}).err, "");
 }
 
+TEST_F(CorpusTest, ASliceThatThereIsNotIsAnError) {
+  make_models();
+  plan();
+  const ProgramResult ran = run({"--slice", "1"});
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_TRUE(says(ran.err, "there is no slice 1; the job has 0 to 0"));
+  EXPECT_TRUE(fs::is_empty(job("/attempts")));
+}
+
 TEST_F(CorpusTest, StrangeNamesAreNamesToo) {
   dir_.write("corpus/-v.obj", kQuad);
   dir_.write("corpus/a\tb\n'\"\xFF*.obj", kTriangle);
