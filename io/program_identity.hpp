@@ -8,8 +8,7 @@ namespace atlasgauge {
 std::string program_version();
 
 /// What tells this program from any other, however little they differ: its version and the build id
-/// that the linker made of its content, as in "0.1.0-8a8f2afc1dee". (What the modules for images
-/// and OSMesa contain is not part of it.)
+/// that the linker made of its content, as in "0.1.0-8a8f2afc1dee". Modules are not part of it.
 std::string program_identity();
 
 /// Path of the file that this program was started from. Throws Error(kInternal).

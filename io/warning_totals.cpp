@@ -24,6 +24,7 @@ std::string_view last_line(std::string_view text) {
 std::string warnings_line(const WarningTotals& totals) {
   std::string line;
   for (const auto& [kind, count] : totals) {
+    if (count == 0) continue;
     line += fmt::format("{}{} {}", line.empty() ? kBegin : kSeparator, count, kind);
   }
   return line.empty() ? line : line + "\n";

@@ -27,6 +27,7 @@ struct CorpusProbeOptions {
   std::string root;
   std::vector<std::string> models;  ///< from the root
   std::optional<std::uint32_t> lod;
+  bool digests_only = false;
 };
 
 /// `corpus run`: measures a slice.

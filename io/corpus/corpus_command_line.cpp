@@ -59,6 +59,7 @@ CLI::App* describe_probe(CLI::App& app, Texts& texts) {
   probe->add_option("ROOT", texts.probe.root)->required();
   probe->add_option("MODEL", texts.probe.models);
   probe->add_option("--lod", texts.probe.lod);
+  probe->add_flag("--digests-only", texts.probe.digests_only);
   return probe;
 }
 

@@ -141,7 +141,7 @@ InputDigest digest_inputs(const std::string& root, const std::vector<std::string
 }
 
 bool unchanged(const std::vector<InputFile>& files) {
-  return std::ranges::all_of(files, [](const InputFile& file) {
+  return !files.empty() && std::ranges::all_of(files, [](const InputFile& file) {
     return state_of(open_regular(file.path), file.path) == file;
   });
 }

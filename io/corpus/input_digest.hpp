@@ -33,8 +33,8 @@ struct InputDigest {
 /// time from before it was read, so that unchanged() tells.
 InputDigest digest_inputs(const std::string& root, const std::vector<std::string>& files);
 
-/// Whether every file still has the size and time of modification that it had: what lets a job
-/// trust a digest without reading it all again.
+/// Whether there are files, and every one still has the size and time of modification that it had:
+/// what lets a job trust a digest without reading it all again.
 bool unchanged(const std::vector<InputFile>& files);
 
 }  // namespace atlasgauge

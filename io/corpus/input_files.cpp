@@ -1,5 +1,7 @@
 #include "io/corpus/input_files.hpp"
 
+#include <climits>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string_view>
@@ -25,7 +27,9 @@ class FileList {
  public:
   explicit FileList(const std::string& model) : room_(model) {}
 
+  /// No file has a longer path than the system takes.
   void add(const std::string& path) {
+    if (path.size() >= PATH_MAX) return;
     std::string key = one_spelling(path);
     if (known_.contains(key)) return;
     room_.add(path.size() + key.size());
@@ -77,11 +81,29 @@ std::optional<std::string> fault_of(const std::function<void()>& step) {
 }
 
 /// Images as a measuring run finds them, without a look at what they hold.
-void add_images(InputMaterials materials, FileList& files, Warnings& warnings) {
+TextureSlots find_images(InputMaterials materials, Warnings& warnings) {
   const auto no_probe = [](const ImageSource&) { return ImageHeader{}; };
-  const TextureSlots found = resolve_textures({&materials, 1}, std::nullopt, no_probe, warnings);
-  if (!found.has_images) return;
-  for (const TextureSlot& slot : found.slots) files.add(slot.source.path);
+  TextureSlots found = resolve_textures({&materials, 1}, std::nullopt, no_probe, warnings);
+  if (!found.has_images) found.slots.clear();
+  return found;
+}
+
+void add_images(InputMaterials materials, FileList& files, Warnings& warnings) {
+  const TextureSlots images = find_images(std::move(materials), warnings);
+  for (const TextureSlot& slot : images.slots) files.add(slot.source.path);
+}
+
+/// An image is sought beside the library before it is beside the model: that is where one would
+/// come first.
+void add_images_of_obj(InputMaterials materials, const std::vector<std::string>& libraries,
+                       FileList& files, Warnings& warnings) {
+  const TextureSlots images = find_images(std::move(materials), warnings);
+  for (const TextureSlot& slot : images.slots) {
+    files.add(slot.source.path);
+    for (const std::string& library : libraries) {
+      files.add(std::filesystem::path(library).replace_filename(slot.name).string());
+    }
+  }
 }
 
 /// The `mtllib` lines up to a fault, if there is one.
@@ -101,11 +123,12 @@ LibraryLines find_library_lines(const std::string& path, Warnings& warnings) {
 
 std::optional<std::string> list_obj(const std::string& path, FileList& files, Warnings& warnings) {
   LibraryLines libraries = find_library_lines(path, warnings);
-  for (const std::string& found : find_libraries(path, libraries.lines).found) files.add(found);
+  const std::vector<std::string> found = find_libraries(path, libraries.lines).found;
+  for (const std::string& library : found) files.add(library);
   for (const std::string& place : places_of_missing_libraries(path, libraries.lines)) {
     files.add(place);
   }
-  add_images({path, ObjMaterials{std::move(libraries.lines), {}}}, files, warnings);
+  add_images_of_obj({path, ObjMaterials{std::move(libraries.lines), {}}}, found, files, warnings);
   return libraries.fault;
 }
 

@@ -15,8 +15,9 @@ namespace atlasgauge {
 /// - A missing image is listed where it would be looked for first.
 /// - So is a missing library. Where a line of several names leaves open which words are a name, all
 ///   of the words and each of them is listed.
-/// - Libraries and images that a model does not name, but that are found by its own name, are
-///   listed where they lie; where there are none, as "model.mtl" and "model.png".
+/// - A file that would be found before the one that is, is listed as missing: an image of an OBJ
+///   beside each of its libraries, one with the model's own name in every spelling that is tried.
+/// - Names longer than the system takes are not listed.
 struct ModelInputs {
   std::vector<std::string> files;
   std::optional<std::string> fault;  ///< why there may be more

@@ -19,11 +19,13 @@ struct ModelResult {
 };
 
 /// The results of a job: for each model at most one, a file named by the digest of the model's
-/// inputs, the identity of the program, and the arguments that change a report. So a result is
-/// found again if, and only if, none of these changed. A file is there whole or not at all, and
-/// tasks that measure a model at the same time replace it by the same bytes.
+/// inputs, the identity of the program and of its module for images, and the arguments that change
+/// a report. So a result is found again if, and only if, none of these changed. A file is there
+/// whole or not at all, and tasks that measure a model at the same time replace it by the same
+/// bytes.
 ///
-/// Its first line is a JSON object with all but the report; the report follows, as measured.
+/// Its first line is a JSON object with all but the report, and the report's size, so that a file
+/// that was cut is no result; the report follows, as measured.
 class ResultStore {
  public:
   ResultStore(const CorpusJob& job, const CorpusSettings& settings);

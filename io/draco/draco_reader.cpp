@@ -125,11 +125,12 @@ std::unique_ptr<MeshPart> DracoReader::next() {
   if (!names.empty() && is_file(library)) {
     materials_ = materials_by_name(names, library, warnings_);
     part->set_materials(FaceMaterials::kByName);
-  } else if (std::optional<NamedImage> image = image_of_stem(path_)) {
+    return part;
+  }
+  for (const std::string& place : places_of_stem_image(path_)) files_.tell(place);
+  if (std::optional<NamedImage> image = image_of_stem(path_)) {
     materials_ = {{std::move(*image)}, {0}};
     part->set_materials(FaceMaterials::kOneImage);
-  } else {
-    files_.tell(first_image_of_stem(path_));
   }
   return part;
 }

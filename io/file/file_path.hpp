@@ -5,7 +5,7 @@
 
 namespace atlasgauge {
 
-/// Anything that can be opened and read, and is no directory.
+/// A regular file: nothing that a model names may be a pipe or a device, which may never end.
 bool is_file(const std::filesystem::path& path);
 
 /// One spelling for all paths to a file, existing or not.

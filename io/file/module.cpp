@@ -39,16 +39,8 @@ std::vector<fs::path> module_folders() {
 }
 
 [[noreturn]] void fail_to_load(const Module& module, const std::string& reason) {
-  throw Error(ErrorKind::kInternal, std::string("cannot load ") + module.file + ", which " +
+  throw Error(ErrorKind::kResource, std::string("cannot load ") + module.file + ", which " +
                                         module.purpose + ": " + reason + "; " + module.remedy);
-}
-
-fs::path find_module(const Module& module) {
-  for (const fs::path& folder : module_folders()) {
-    std::error_code ignored;
-    if (fs::exists(folder / module.file, ignored)) return folder / module.file;
-  }
-  fail_to_load(module, "it lies neither beside the program nor in ../lib/atlasgauge");
 }
 
 std::string loader_error() {
@@ -58,8 +50,18 @@ std::string loader_error() {
 
 }  // namespace
 
+std::optional<std::string> module_path(const Module& module) {
+  for (const fs::path& folder : module_folders()) {
+    std::error_code ignored;
+    if (fs::exists(folder / module.file, ignored)) return (folder / module.file).string();
+  }
+  return std::nullopt;
+}
+
 void* module_symbol(const Module& module, const char* symbol) {
-  void* const handle = ::dlopen(find_module(module).c_str(), RTLD_NOW | RTLD_LOCAL);
+  const std::optional<std::string> path = module_path(module);
+  if (!path) fail_to_load(module, "it lies neither beside the program nor in ../lib/atlasgauge");
+  void* const handle = ::dlopen(path->c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) fail_to_load(module, loader_error());
   void* const found = ::dlsym(handle, symbol);
   if (found == nullptr) fail_to_load(module, loader_error());

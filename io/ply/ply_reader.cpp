@@ -82,11 +82,10 @@ std::unique_ptr<MeshPart> PlyReader::next() {
   auto part = std::make_unique<PlyPart>(std::move(source_), path_, block_bytes_);
   materials_ = materials_of(part->header(), path_);
   if (!materials_.images.empty()) return part;
+  for (const std::string& place : places_of_stem_image(path_)) files_.tell(place);
   if (std::optional<NamedImage> image = image_of_stem(path_)) {
     materials_ = {{std::move(*image)}, {0}};
     part->set_own_image();
-  } else {
-    files_.tell(first_image_of_stem(path_));
   }
   return part;
 }

@@ -36,10 +36,6 @@ namespace {
 
 constexpr std::size_t kReadBytes = 64 << 10;
 
-double seconds(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
 void add_out(ChildEnd& end, std::string_view text) {
   const std::size_t room = ChildProcesses::kMostOutBytes - end.out.size();
   end.out += text.substr(0, room);
@@ -86,7 +82,6 @@ bool reap(pid_t pid, int& status, rusage& usage) {
 void note_end(ChildEnd& end, int status, const rusage& usage) {
   end.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   end.exit_code = end.signal != 0 ? 128 + end.signal : WEXITSTATUS(status);
-  end.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   end.peak_resident_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/process/message_digest.hpp"
+#include "io/process/message_tail.hpp"
 #include "io/process/started_child.hpp"
 #include "io/process/stop_signals.hpp"
 
@@ -20,9 +20,8 @@ struct ChildEnd {
   int signal = 0;       ///< 0 when it exited by itself
   std::string out;      ///< its standard output, up to ChildProcesses::kMostOutBytes
   bool out_cut = false;
-  MessageDigest messages;  ///< its standard error
+  MessageTail messages;  ///< its standard error
   double wall_seconds = 0;
-  double cpu_seconds = 0;  ///< user and system
   /// The system counts from fork on: no less than what the starting process kept for itself.
   std::uint64_t peak_resident_bytes = 0;
 };

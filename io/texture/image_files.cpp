@@ -38,19 +38,22 @@ fs::path without_compression(fs::path model_path) {
   return model_path;
 }
 
-std::optional<NamedImage> image_of_stem(const fs::path& model_path) {
+std::vector<std::string> places_of_stem_image(const fs::path& model_path) {
+  std::vector<std::string> places;
   fs::path path = without_compression(model_path);
   for (const char* const suffix : kStemSuffixes) {
     for (const std::string& spelling : {std::string(suffix), in_capitals(suffix)}) {
-      path.replace_extension(spelling);
-      if (is_file(path)) return image_in_file(path.filename().string(), one_spelling(path));
+      places.push_back(path.replace_extension(spelling).string());
+      if (is_file(path)) return places;
     }
   }
-  return std::nullopt;
+  return places;
 }
 
-std::string first_image_of_stem(const fs::path& model_path) {
-  return without_compression(model_path).replace_extension(kStemSuffixes.front()).string();
+std::optional<NamedImage> image_of_stem(const fs::path& model_path) {
+  const fs::path last = places_of_stem_image(model_path).back();
+  if (!is_file(last)) return std::nullopt;
+  return image_in_file(last.filename().string(), one_spelling(last));
 }
 
 }  // namespace atlasgauge

@@ -28,7 +28,7 @@ std::filesystem::path without_compression(std::filesystem::path model_path);
 /// first of png, jpg, jpeg, tif, tiff, webp, tga, bmp, exr, in small letters or capitals.
 std::optional<NamedImage> image_of_stem(const std::filesystem::path& model_path);
 
-/// Where image_of_stem() looks first.
-std::string first_image_of_stem(const std::filesystem::path& model_path);
+/// Where image_of_stem() looks, up to the one that it finds.
+std::vector<std::string> places_of_stem_image(const std::filesystem::path& model_path);
 
 }  // namespace atlasgauge

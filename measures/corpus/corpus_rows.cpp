@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "io/corpus/corpus_models.hpp"
 #include "io/corpus/model_metadata.hpp"
+#include "measures/corpus/corpus_models.hpp"
 
 namespace atlasgauge {
 
@@ -12,9 +12,9 @@ const char* CorpusRow::status() const {
   return result->measured ? "measured" : "failed";
 }
 
-CorpusRows::CorpusRows(const CorpusJob& job, Warnings& warnings)
+CorpusRows::CorpusRows(const CorpusJob& job, StopSignals& stop, Warnings& warnings)
     : settings_(job.read_settings()), results_(job, settings_) {
-  CorpusModels models(job, settings_);
+  CorpusModels models(job, settings_, stop);
   while (const auto model = models.next()) {
     const PlannedModel& planned = model->planned;
     CorpusRow row{planned.path, planned.digest, results_.find(planned.digest)};

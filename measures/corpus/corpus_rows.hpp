@@ -6,6 +6,7 @@
 
 #include "io/corpus/corpus_job.hpp"
 #include "io/corpus/model_result.hpp"
+#include "io/process/stop_signals.hpp"
 #include "io/warnings.hpp"
 
 namespace atlasgauge {
@@ -26,8 +27,8 @@ struct CorpusRow {
 /// again each time.
 class CorpusRows {
  public:
-  /// Warns about metadata that cannot be read.
-  CorpusRows(const CorpusJob& job, Warnings& warnings);
+  /// Warns about metadata that cannot be read. Ends before all are there when a signal comes.
+  CorpusRows(const CorpusJob& job, StopSignals& stop, Warnings& warnings);
 
   const std::vector<CorpusRow>& all() const { return rows_; }
   /// The text of a report; none where the model is not measured.

@@ -20,11 +20,25 @@ void remark(const std::string& line) {
   std::fputs((line + "\n").c_str(), stderr);
 }
 
+/// A link in a corpus that others made could lead anywhere.
+void refuse_links(const std::filesystem::path& folder, const std::filesystem::path& below) {
+  std::filesystem::path path = folder;
+  for (const std::filesystem::path& step : below) {
+    path /= step;
+    std::error_code fault;
+    if (!std::filesystem::is_symlink(path, fault)) continue;
+    throw Error(ErrorKind::kResource, path.string(), 0,
+                "a report would be written through this symbolic link; remove it, or give another "
+                "folder to --reports");
+  }
+}
+
 void write_reports(const CorpusRows& rows, const std::string& folder) {
   for (const CorpusRow& row : rows.all()) {
     const auto report = rows.report(row);
     if (!report) continue;
     const std::filesystem::path path = std::filesystem::path(folder) / (row.path + ".json");
+    refuse_links(folder, row.path + ".json");
     std::error_code fault;
     std::filesystem::create_directories(path.parent_path(), fault);
     if (fault) {
@@ -53,7 +67,9 @@ std::size_t tell(const CorpusRows& rows, const CorpusJob& job) {
 int gather_corpus(const CorpusGatherOptions& options) {
   const CorpusJob job(options.job);
   Warnings warnings([](const std::string& text) { remark("warning: " + text); });
-  const CorpusRows rows(job, warnings);
+  StopSignals stop;
+  const CorpusRows rows(job, stop, warnings);
+  if (stop.taken() != 0) return 128 + stop.taken();
   write_corpus_csv(rows, job.table_path(".csv"));
   write_corpus_json_lines(rows, job.table_path(".jsonl"));
   if (options.reports) write_reports(rows, *options.reports);

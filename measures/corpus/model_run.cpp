@@ -14,16 +14,20 @@
 namespace atlasgauge {
 namespace {
 
-/// What a faulty program gets from the system; all else is sent.
+/// What a faulty program gets from the system; all else is sent, or the fault of a disk (SIGBUS).
 bool is_crash(int signal) {
-  constexpr std::array kCrashes{SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS};
+  constexpr std::array kCrashes{SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGTRAP, SIGSYS};
   return std::ranges::find(kCrashes, signal) != kCrashes.end();
 }
 
+/// Paths begin a text, or after what is no part of a path.
 std::string without_root(std::string text, const std::string& root) {
   const std::string prefix = root + "/";
+  const auto begins_path = [&](std::size_t at) {
+    return at == 0 || std::string_view(" \"'(").find(text[at - 1]) != std::string_view::npos;
+  };
   for (std::size_t at = 0; (at = text.find(prefix, at)) != std::string::npos;) {
-    text.erase(at, prefix.size());
+    begins_path(at) ? void(text.erase(at, prefix.size())) : void(++at);
   }
   return text;
 }
@@ -70,7 +74,7 @@ ModelOutcome outcome_of(const ChildEnd& end, const std::string& root) {
                         ::strsignal(end.signal)),
             {}};
   }
-  const std::string tail = end.messages.tail();
+  const std::string tail = end.messages.text();
   const Outcome outcome = outcome_of_code(end.exit_code);
   if (outcome == Outcome::kMeasured && end.out_cut) {
     return {Outcome::kFailed,

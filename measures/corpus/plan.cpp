@@ -41,13 +41,6 @@ FoundModels models_in(const std::string& root, const CorpusPlanOptions& options)
                   : "no file in it matches the patterns of --glob");
 }
 
-/// As `corpus probe` wants them: of those that change a report, what changes which files are read.
-std::vector<std::string> probe_arguments(const std::vector<std::string>& arguments) {
-  const auto lod = std::ranges::find(arguments, "--lod");
-  if (lod == arguments.end()) return {};
-  return {lod, lod + 2};
-}
-
 /// Gives each model its slice; returns how many there are.
 std::uint64_t slice(std::vector<PlannedModel>& models, std::optional<std::uint64_t> wanted) {
   std::vector<double> seconds;
@@ -60,8 +53,12 @@ std::uint64_t slice(std::vector<PlannedModel>& models, std::optional<std::uint64
   return slices;
 }
 
+BatchJob batch_of(const CorpusJob& job, std::uint64_t slices) {
+  return {program_path(), job.folder(), job.logs_path(), slices};
+}
+
 void write_scripts(const CorpusJob& job, std::uint64_t slices) {
-  const BatchJob batch{program_path(), job.folder(), job.logs_path(), slices};
+  const BatchJob batch = batch_of(job, slices);
   write_file(job.script_path("corpus"), corpus_script(batch));
   write_file(job.script_path("gather"), gather_script(batch));
 }
@@ -96,12 +93,13 @@ int plan_corpus(const CorpusPlanOptions& options) {
   for (const std::string& folder : found.unreadable) {
     progress.message("warning: " + folder + ": the folder cannot be searched; it is left out");
   }
+  corpus_script(batch_of(job, 1));  // throws for a folder that no script can name
   job.make_folders();
 
   ManifestWriter manifest(job);
   std::vector<PlannedModel> models;
   const std::size_t jobs = options.jobs > 0 ? options.jobs : detect_cpu_limit().cpus;
-  const ProbeWork work{root, found.paths, probe_arguments(options.arguments), jobs};
+  const ProbeWork work{{root, 0, options.arguments}, found.paths, jobs};
   const int signal = probe_models(work, [&](const ModelProbe& probe) {
     for (const InputFile& file : probe.inputs.files) manifest.add_input(file);
     models.push_back({0, probe.seconds, probe.inputs.bytes, probe.inputs.files.size(),
@@ -113,8 +111,8 @@ int plan_corpus(const CorpusPlanOptions& options) {
 
   const std::uint64_t slices = slice(models, options.slices);
   for (const PlannedModel& model : models) manifest.add_model(model);
-  job.write_settings({root, slices, options.arguments});
   manifest.commit();
+  job.write_settings({root, slices, options.arguments});
   write_scripts(job, slices);
   write_file("-", summary_of(job, models, slices));
   return 0;

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 
-#include "io/corpus/corpus_models.hpp"
+#include "io/corpus/input_digest.hpp"
+#include "io/corpus/input_files.hpp"
 #include "io/corpus/model_probe.hpp"
 #include "io/error.hpp"
 #include "io/file/output_file.hpp"
@@ -15,6 +17,14 @@
 namespace atlasgauge {
 namespace {
 
+/// As much JSON as a run may hold that has all memory of the world, so that no file is overlooked
+/// that it would read.
+constexpr std::uint64_t kJsonBytes = std::uint64_t{128} << 20;
+
+PartOptions part_options(const CorpusProbeOptions& options) {
+  return {.lod = options.lod, .json_bytes = kJsonBytes};
+}
+
 /// Slices must not depend on the machine that plans them.
 MemoryPlan plan_of_a_task() {
   constexpr std::uint64_t kTaskBytes = std::uint64_t{2} << 30;
@@ -26,10 +36,10 @@ MemoryPlan plan_of_a_task() {
 
 /// CPU time, since models are measured side by side. What cannot be estimated cannot be measured
 /// either, and does not take long.
-double seconds_for(const std::string& path, std::optional<std::uint32_t> lod) {
+double seconds_for(const std::string& path, const PartOptions& options) {
   constexpr double kStartSeconds = 0.02;
   const OpenParts open = [&](const std::string& input, Warnings& warnings) {
-    return open_parts(input, {.lod = lod}, warnings);
+    return open_parts(input, options, warnings);
   };
   try {
     const ModelGuess guess = guess_model(std::array{path}, {read_image_header, open});
@@ -43,8 +53,11 @@ double seconds_for(const std::string& path, std::optional<std::uint32_t> lod) {
 
 int probe_corpus(const CorpusProbeOptions& options) {
   for (const std::string& model : options.models) {
-    ModelProbe probe{model, 0, digest_model(options.root, model, options.lod)};
-    probe.seconds = seconds_for(options.root + "/" + model, options.lod);
+    const std::string path = options.root + "/" + model;
+    ModelProbe probe{model, 0, {}};
+    probe.inputs =
+        digest_inputs(options.root, list_model_inputs(path, part_options(options)).files);
+    if (!options.digests_only) probe.seconds = seconds_for(path, part_options(options));
     write_file("-", probe_text(probe));
   }
   return 0;

@@ -7,6 +7,7 @@
 
 #include "io/process/child_processes.hpp"
 #include "io/process/stop_signals.hpp"
+#include "measures/corpus/model_digests.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -43,14 +44,13 @@ class ProbePool {
   void start_next() {
     const Batch batch = waiting_.front();
     waiting_.pop_front();
-    ChildCommand command;
-    command.arguments = {"/proc/self/exe", "corpus", "probe"};
-    auto& arguments = command.arguments;
-    arguments.insert(arguments.end(), work_.arguments.begin(), work_.arguments.end());
-    arguments.insert(arguments.end(), {"--", work_.root});
-    for (std::size_t i = batch.first; i < batch.end; ++i) arguments.push_back(work_.models[i]);
-    children_.start(batch.first, command);
+    const std::vector<std::string> models(at(batch.first), at(batch.end));
+    children_.start(batch.first, probe_command(work_.settings, models, false));
     ends_[batch.first] = batch.end;
+  }
+
+  std::vector<std::string>::const_iterator at(std::size_t model) const {
+    return work_.models.begin() + static_cast<std::ptrdiff_t>(model);
   }
 
   /// What a child did not come to goes to another, but for the model that it ended at.
@@ -59,12 +59,9 @@ class ProbePool {
     const std::size_t end = std::exchange(ends_[child.tag], 0);
     for (ModelProbe& probe : read_probes(child.out)) done_[next++] = std::move(probe);
     if (next >= end) return;
-    done_[next] = probe_from_outside(work_.models[next]);
+    const std::string& model = work_.models[next];
+    done_[next] = {model, 0, digest_from_outside(work_.settings.root, model)};
     if (next + 1 < end) waiting_.push_front({next + 1, end});
-  }
-
-  ModelProbe probe_from_outside(const std::string& model) const {
-    return {model, 0, digest_inputs(work_.root, {work_.root + "/" + model})};
   }
 
   void hand_out() {

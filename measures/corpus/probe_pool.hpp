@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "io/corpus/corpus_job.hpp"
 #include "io/corpus/model_probe.hpp"
 
 namespace atlasgauge {
 
 /// What to probe, and how.
 struct ProbeWork {
-  std::string root;
-  std::vector<std::string> models;     ///< paths from the root
-  std::vector<std::string> arguments;  ///< more of `corpus probe`
-  std::size_t jobs = 1;                ///< child processes side by side
+  CorpusSettings settings;
+  std::vector<std::string> models;  ///< paths from the root
+  std::size_t jobs = 1;             ///< child processes side by side
 };
 
 /// Probes all models, many a child process, and calls take() for each in their order; a model that

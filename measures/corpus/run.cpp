@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdio>
 #include <map>
 #include <string>
 #include <tuple>
@@ -23,14 +25,13 @@
 #include "io/bytes.hpp"
 #include "io/corpus/attempt_log.hpp"
 #include "io/corpus/corpus_job.hpp"
-#include "io/corpus/corpus_models.hpp"
 #include "io/corpus/model_result.hpp"
 #include "io/error.hpp"
-#include "io/file/output_file.hpp"
 #include "io/process/child_processes.hpp"
 #include "io/process/stop_signals.hpp"
 #include "io/program_identity.hpp"
 #include "measures/corpus/corpus.hpp"
+#include "measures/corpus/corpus_models.hpp"
 #include "measures/corpus/corpus_progress.hpp"
 #include "measures/corpus/model_run.hpp"
 #include "measures/corpus/task_share.hpp"
@@ -72,6 +73,7 @@ class SliceRun {
         results_(job_, settings_),
         log_(job_, slice_name(options, settings_)),
         progress_(options.progress, options.quiet),
+        models_(job_, settings_, stop_),
         children_(stop_) {}
 
   int run() {
@@ -86,7 +88,7 @@ class SliceRun {
     }
     progress_.clear();
     if (stop_.taken() != 0) return 128 + stop_.taken();
-    if (!options_.quiet) write_file("-", summary());
+    if (!options_.quiet) std::fputs(summary().c_str(), stdout);
     return counts_.missing > 0 ? 1 : 0;
   }
 
@@ -94,10 +96,7 @@ class SliceRun {
   /// The models without a result: those that were begun before last, and of others the one that
   /// takes longest first, so that none is left over at the end.
   void collect() {
-    CorpusModels models(job_, settings_);
-    while (!stop_.take()) {
-      auto model = models.next(options_.slice);
-      if (!model) break;
+    while (auto model = models_.next(options_.slice)) {
       if (results_.find(model->planned.digest)) {
         ++counts_.before;
       } else {
@@ -119,9 +118,11 @@ class SliceRun {
   void measure_waiting(std::size_t side_by_side) {
     const ModelShare share = share_.of_one(side_by_side);
     while (stop_.taken() == 0 && (next_ < waiting_.size() || children_.running() > 0)) {
-      while (next_ < waiting_.size() && children_.running() < side_by_side) begin(next_++, share);
-      const std::optional<ChildEnd> end = children_.wait();
-      if (end) settle(waiting_[end->tag], *end);
+      if (next_ < waiting_.size() && children_.running() < side_by_side) {
+        begin(next_++, share);
+      } else if (const std::optional<ChildEnd> end = children_.wait()) {
+        settle(waiting_[end->tag], *end);
+      }
     }
     next_ = 0;
   }
@@ -129,7 +130,8 @@ class SliceRun {
   void begin(std::size_t tag, const ModelShare& share) {
     Task& task = waiting_[tag];
     ++task.tries;
-    bring_up_to_date(settings_, task.model);
+    if (!models_.bring_up_to_date(task.model)) return;
+    if (!task.model.is_there()) return give_up(task, "its file is not there");
     log_.began(task.digest());
     const std::string path = settings_.root + "/" + task.path();
     children_.start(tag, measure_command(path, settings_.arguments, share));
@@ -138,7 +140,7 @@ class SliceRun {
   void settle(Task& task, const ChildEnd& end) {
     ModelOutcome outcome = outcome_of(end, settings_.root);
     if (!is_as_it_was(task, outcome.outcome)) {
-      outcome = {Outcome::kKilled, "its files changed while it was measured", {}};
+      outcome = {Outcome::kKilled, "its files changed, or could not be read again", {}};
     }
     switch (outcome.outcome) {
       case Outcome::kMeasured:
@@ -157,10 +159,9 @@ class SliceRun {
   }
 
   /// A failure may come from a disk that did not answer: it counts when all can be read again.
-  bool is_as_it_was(const Task& task, Outcome outcome) const {
-    if (!unchanged(task.model.inputs)) return false;
-    if (outcome != Outcome::kFailed) return true;
-    return digest_model(settings_, task.path()).hex == task.digest();
+  bool is_as_it_was(const Task& task, Outcome outcome) {
+    if (outcome == Outcome::kFailed) return models_.is_still(task.model);
+    return task.model.inputs.empty() || unchanged(task.model.inputs);
   }
 
   void keep(const Task& task, const ModelOutcome& outcome, const std::string& report) {
@@ -178,8 +179,11 @@ class SliceRun {
       (alone_ ? waiting_ : again_).push_back(task);
       return;
     }
-    const std::string reason =
-        refused ? outcome.reason : fmt::format("{}, {} times", outcome.reason, task.tries);
+    give_up(task,
+            refused ? outcome.reason : fmt::format("{}, {} times", outcome.reason, task.tries));
+  }
+
+  void give_up(const Task& task, const std::string& reason) {
     log_.came_to_nothing(task.digest(), reason);
     ++counts_.missing;
     const std::string line = "missing " + task.path() + ": " + reason;
@@ -201,6 +205,7 @@ class SliceRun {
   AttemptLog log_;
   CorpusProgress progress_;
   StopSignals stop_;
+  CorpusModels models_;
   ChildProcesses children_;
   TaskShare share_;
   std::vector<Task> waiting_;
@@ -214,6 +219,8 @@ class SliceRun {
 }  // namespace
 
 int run_corpus(const CorpusRunOptions& options) {
+  // Who reads the messages may go; the results are files.
+  std::signal(SIGPIPE, SIG_IGN);
   return SliceRun(options).run();
 }
 

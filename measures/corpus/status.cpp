@@ -9,10 +9,10 @@
 #include "io/corpus/attempt_log.hpp"
 #include "io/corpus/batch_scripts.hpp"
 #include "io/corpus/corpus_job.hpp"
-#include "io/corpus/corpus_models.hpp"
 #include "io/corpus/model_result.hpp"
 #include "io/file/output_file.hpp"
 #include "measures/corpus/corpus.hpp"
+#include "measures/corpus/corpus_models.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -44,7 +44,8 @@ int show_corpus(const CorpusStatusOptions& options) {
   std::size_t measured = 0, failed = 0, missing = 0;
   std::set<std::uint64_t> slices;
   std::string lines;
-  CorpusModels models(job, settings);
+  StopSignals stop;
+  CorpusModels models(job, settings, stop);
   while (const auto current = models.next()) {
     const PlannedModel& model = current->planned;
     const auto result = results.find(model.digest);
@@ -59,6 +60,7 @@ int show_corpus(const CorpusStatusOptions& options) {
       lines += missing_line(model, attempts[model.digest]);
     }
   }
+  if (stop.taken() != 0) return 128 + stop.taken();
   write_file("-",
              fmt::format("{} models in {} slices: {} measured, {} failed, {} missing\n",
                          measured + failed + missing, settings.slices, measured, failed, missing) +

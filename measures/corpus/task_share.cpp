@@ -45,7 +45,7 @@ TaskShare share_of_task(const CorpusRunOptions& options, std::size_t models) {
   TaskShare share;
   share.memory_bytes = options.memory_bytes.value_or(detect_memory_limit().bytes / 10 * 8);
   share.threads = options.threads > 0 ? options.threads : detect_cpu_limit().cpus;
-  share.jobs = options.jobs > 0 ? options.jobs : usual_jobs(share, models);
+  share.jobs = options.jobs > 0 ? std::min(options.jobs, models) : usual_jobs(share, models);
   share.tmp_dir = options.tmp_dir;
   check_share(share);
   return share;

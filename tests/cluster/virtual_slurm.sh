@@ -157,13 +157,15 @@ pick_ports() {
 
 # cred_expire: a requeued job starts only when its old credential is over, 120 s by default.
 # TmpFS: the steps of all nodes would use the same files in /tmp otherwise.
-# linuxproc, none: there may be no cgroups to write to; so memory limits are not enforced.
+# linuxproc, none: there may be no cgroups to write to; so memory limits are not enforced. Unless
+# told which kind of cgroups there is, slurmd looks for them, and ends where there are none.
 # SlurmdTimeout: how soon a lost node is noticed, 300 s by default.
 write_configuration() {
   local port=$1 host user
   host=$(uname -n)
   host=${host%%.*}
   user=$(id -un)
+  echo 'CgroupPlugin=cgroup/v1' >"$state/cgroup.conf"
   cat >"$SLURM_CONF" <<CONFIGURATION
 ClusterName=virtual
 SlurmctldHost=$host(127.0.0.1)

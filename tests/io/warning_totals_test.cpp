@@ -9,6 +9,7 @@ TEST(WarningTotalsTest, TheLineNamesEveryKind) {
   EXPECT_EQ(warnings_line({{"faces invalid", 12}, {"no image", 1}}),
             "warnings: 12 faces invalid, 1 no image\n");
   EXPECT_EQ(warnings_line({}), "");
+  EXPECT_EQ(warnings_line({{"faces invalid", 0}}), "");
 }
 
 TEST(WarningTotalsTest, TheLineIsReadBackFromTheEndOfAText) {

@@ -67,6 +67,15 @@ TEST_F(ResultStoreTest, OtherInputsOrArgumentsHaveOtherResults) {
   EXPECT_EQ(files().size(), 2U);
 }
 
+TEST_F(ResultStoreTest, AResultThatIsCutOrLongerIsNotFound) {
+  store().write(kDigest, {"a.obj", "p", true, "", {}}, kReport);
+  const auto bytes = fs::file_size(files().front());
+  fs::resize_file(files().front(), bytes + 1);
+  EXPECT_FALSE(store().find(kDigest));
+  fs::resize_file(files().front(), bytes - 1);
+  EXPECT_FALSE(store().find(kDigest));
+}
+
 TEST_F(ResultStoreTest, WhatIsNoResultIsNotFound) {
   store().write(kDigest, {"a.obj", "p", true, "", {}}, kReport);
   for (const char* content : {"", "\n", "garbage\n", "{\"model\": \"a\"}\n", "[]\n"}) {

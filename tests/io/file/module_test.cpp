@@ -21,7 +21,7 @@ class ModuleTest : public ::testing::Test {
     try {
       module_symbol({file, "knits", "buy wool"}, symbol);
     } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::kInternal);
+      EXPECT_EQ(error.kind(), ErrorKind::kResource);
       return error.what();
     }
     return "";

@@ -65,8 +65,7 @@ TEST_F(ChildProcessesTest, OutputMessagesAndExitCodeAreTold) {
   EXPECT_EQ(end.signal, 0);
   EXPECT_EQ(end.out, "result\n");
   EXPECT_FALSE(end.out_cut);
-  EXPECT_EQ(end.messages.warnings(), 1U);
-  EXPECT_EQ(end.messages.tail(), "warning: w\natlasgauge: e\n");
+  EXPECT_EQ(end.messages.text(), "warning: w\natlasgauge: e\n");
 }
 
 TEST_F(ChildProcessesTest, ArgumentsArriveAsTheyAre) {
@@ -125,7 +124,7 @@ TEST_F(ChildProcessesTest, MuchOutputOnBothStreamsDoesNotBlock) {
   EXPECT_EQ(end.exit_code, 0);
   EXPECT_EQ(end.out.size(), 6000000U);
   EXPECT_FALSE(end.out_cut);
-  EXPECT_EQ(end.messages.tail().substr(MessageDigest::kTailBytes - 4), "end\n");
+  EXPECT_EQ(end.messages.text().substr(MessageTail::kBytes - 4), "end\n");
 }
 
 TEST_F(ChildProcessesTest, OutputBeyondTheMostIsCutAndTheChildGoesOn) {
@@ -153,14 +152,14 @@ TEST_F(ChildProcessesTest, WhatAnEndedChildHasLeftInItsPipesIsRead) {
   }));
   const ChildEnd end = wait();
   EXPECT_EQ(end.out, "out\n");
-  EXPECT_EQ(end.messages.tail(), "err\n");
+  EXPECT_EQ(end.messages.text(), "err\n");
 }
 
 TEST_F(ChildProcessesTest, AProgramLeftBehindThatHoldsThePipesIsNotWaitedFor) {
   const ChildEnd end = run("(" + sleeper("left") + ") & echo out; echo err >&2; exit 2");
   EXPECT_EQ(end.exit_code, 2);
   EXPECT_EQ(end.out, "out\n");
-  EXPECT_EQ(end.messages.tail(), "err\n");
+  EXPECT_EQ(end.messages.text(), "err\n");
   EXPECT_LT(end.wall_seconds, 300);
   ::kill(number_in("left"), SIGKILL);
 }
@@ -168,7 +167,7 @@ TEST_F(ChildProcessesTest, AProgramLeftBehindThatHoldsThePipesIsNotWaitedFor) {
 TEST_F(ChildProcessesTest, AProgramLeftBehindThatWritesForEverIsNotWaitedFor) {
   const ChildEnd end = run("yes & echo $! >&2; sleep 0.2; exit 2");
   EXPECT_EQ(end.exit_code, 2);
-  ::kill(std::stoi(end.messages.tail()), SIGKILL);  // if its closed pipe has not ended it
+  ::kill(std::stoi(end.messages.text()), SIGKILL);  // if its closed pipe has not ended it
 }
 
 TEST_F(ChildProcessesTest, PeakMemoryIsReported) {
@@ -209,7 +208,6 @@ TEST_F(ChildProcessesTest, ALimitOfMemoryIsNeverRaised) {
 
 TEST_F(ChildProcessesTest, TimesAreReported) {
   const ChildEnd end = run("i=0; while [ $i -lt 100000 ]; do i=$((i+1)); done; sleep 0.3");
-  EXPECT_GT(end.cpu_seconds, 0.005);
   EXPECT_GT(end.wall_seconds, 0.3);
 }
 
