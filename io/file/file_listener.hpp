@@ -8,7 +8,7 @@ namespace atlasgauge {
 
 /// Is told of files that an input is made of besides the one that names it: of each when it is
 /// first looked at, there or not, and maybe again. Of images only where they are sought under a
-/// name that the input does not spell out, and none is there; the others are among the materials.
+/// name that the input does not spell out; the others are among the materials.
 class FileListener {
  public:
   /// Hears nothing.

@@ -117,11 +117,11 @@ TEST_F(InputFilesTest, TheLibraryOfAnObjsNameIsListedThoughMissing) {
   EXPECT_EQ(files_of_obj(kTriangle), (Names{"model.obj", "model.mtl"}));
 }
 
-TEST_F(InputFilesTest, AnImageIsListedWhereItLies) {
+TEST_F(InputFilesTest, AnImageIsListedWhereItLiesAndWhereOneWouldBeFoundFirst) {
   dir_.write("maps/model.mtl", kRed);
   dir_.write("red.png", "");
   EXPECT_EQ(files_of_obj("mtllib maps/model.mtl\nv 0 0 0\n"),
-            (Names{"model.obj", "maps/model.mtl", "red.png"}));
+            (Names{"model.obj", "maps/model.mtl", "red.png", "maps/red.png"}));
 }
 
 TEST_F(InputFilesTest, AMissingImageIsListedWhereItWouldBe) {
@@ -190,15 +190,19 @@ constexpr const char* kPly =
     "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
     "property float z\nend_header\n";
 
-TEST_F(InputFilesTest, TheImageOfAPlysNameIsListed) {
+TEST_F(InputFilesTest, TheImageOfAPlysNameIsListedAfterThoseThatWouldBeFoundFirst) {
   dir_.write("model.JPG", "");
   dir_.write("model.ply", kPly);
-  EXPECT_EQ(files("model.ply"), (Names{"model.ply", "model.JPG"}));
+  EXPECT_EQ(files("model.ply"),
+            (Names{"model.ply", "model.png", "model.PNG", "model.jpg", "model.JPG"}));
 }
 
-TEST_F(InputFilesTest, WithoutAnImageOfAPlysNameTheFirstSoughtIsListed) {
+TEST_F(InputFilesTest, WithoutAnImageOfAPlysNameAllThatAreSoughtAreListed) {
   dir_.write("model.ply.gz", gzip(kPly));
-  EXPECT_EQ(files("model.ply.gz"), (Names{"model.ply.gz", "model.png"}));
+  const Names found = files("model.ply.gz");
+  ASSERT_EQ(found.size(), 1 + 2 * 9U);
+  EXPECT_EQ(found[1], "model.png");
+  EXPECT_EQ(found.back(), "model.EXR");
 }
 
 TEST_F(InputFilesTest, ADracoStreamWithMaterialsHasALibrary) {
@@ -216,6 +220,7 @@ TEST_F(InputFilesTest, TheLibraryOfADracoStreamIsListedThoughMissing) {
 TEST_F(InputFilesTest, ADracoStreamWithoutMaterialsHasNoLibrary) {
   dir_.write("model.drc", encode_draco(*DracoGrid{.cells = 1}.mesh(), {}));
   dir_.write("model.mtl", kRed);
+  dir_.write("model.png", "");
   EXPECT_EQ(files("model.drc"), (Names{"model.drc", "model.png"}));
 }
 
