@@ -11,7 +11,9 @@
 #include "io/bytes.hpp"
 #include "io/corpus/corpus_command_line.hpp"
 #include "io/error.hpp"
+#include "io/parsed_number.hpp"
 #include "io/program_identity.hpp"
+#include "io/progress_option.hpp"
 #include "io/suffix.hpp"
 #include "io/table_file.hpp"
 
@@ -34,16 +36,13 @@ ImageSize parse_image_size(const std::string& text) {
 
 std::uint32_t parse_tile_texels(const std::string& text) {
   constexpr std::uint32_t kLeast = 8, kMost = 4096;
-  std::uint32_t texels = 0;
-  const char* end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, texels);
-  const bool whole = parsed.ec == std::errc() && parsed.ptr == end;
-  if (!whole || !std::has_single_bit(texels) || texels < kLeast || texels > kMost) {
+  const auto texels = parsed_number<std::uint32_t>(text);
+  if (!texels || !std::has_single_bit(*texels) || *texels < kLeast || *texels > kMost) {
     throw Error(ErrorKind::kUsage, "--tile-size '" + text +
                                        "' is not the side of a tile; give a power of two from 8 "
                                        "to 4096");
   }
-  return texels;
+  return *texels;
 }
 
 void check_seams_path(const std::string& path) {
@@ -104,9 +103,7 @@ void describe(CLI::App& app, Options& options, Texts& texts) {
                  "what draws the triangles: its own raster, or OSMesa as a cross-check")
       ->check(CLI::IsMember({"scalar", "osmesa"}))
       ->type_name("scalar|osmesa");
-  app.add_option("--progress", texts.progress, "progress on standard error")
-      ->check(CLI::IsMember({"auto", "always", "never"}))
-      ->type_name("auto|always|never");
+  add_progress_option(app, texts.progress);
   app.add_flag("--estimate", options.estimate,
                "print what a run would need of memory, scratch and time, from a sample of the "
                "model, and do not run");
@@ -142,9 +139,7 @@ void check(Options& options, const Texts& texts) {
   options.block_bytes = optional_bytes(texts.block_bytes);
   if (!texts.tile_size.empty()) options.tile_texels = parse_tile_texels(texts.tile_size);
   options.raster = texts.raster == "osmesa" ? RasterChoice::kOsmesa : RasterChoice::kScalar;
-  options.progress = texts.progress == "always"  ? ProgressMode::kAlways
-                     : texts.progress == "never" ? ProgressMode::kNever
-                                                 : ProgressMode::kAuto;
+  options.progress = progress_mode(texts.progress);
   if (options.tmp_dir.empty()) options.tmp_dir = default_tmp_dir();
 }
 

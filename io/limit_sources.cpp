@@ -4,8 +4,9 @@
 #include <sys/sysinfo.h>
 
 #include <array>
-#include <charconv>
 #include <cstdlib>
+
+#include "io/parsed_number.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -40,11 +41,7 @@ std::optional<std::uint64_t> LimitSources::number(const std::string& name) const
 }
 
 std::optional<std::uint64_t> whole_number(std::string_view text) {
-  std::uint64_t number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || rest != end) return std::nullopt;
-  return number;
+  return parsed_number<std::uint64_t>(text);
 }
 
 }  // namespace atlasgauge

@@ -10,15 +10,11 @@
 #include <nlohmann/json.hpp>
 
 #include "io/error.hpp"
+#include "io/json/json_text.hpp"
 #include "io/suffix.hpp"
 
 namespace atlasgauge {
 namespace {
-
-std::string json_text(std::string_view text) {
-  constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-  return nlohmann::json(text).dump(-1, ' ', false, kReplace);
-}
 
 void append_quoted(std::string_view text, std::string& line) {
   line += '"';
@@ -65,7 +61,7 @@ struct JsonValues {
   void operator()(double value) const {
     std::isfinite(value) ? append_double(value, line) : (*this)(std::monostate());
   }
-  void operator()(std::string_view text) const { line += json_text(text); }
+  void operator()(std::string_view text) const { line += json_text(nlohmann::json(text)); }
 };
 
 }  // namespace
@@ -82,7 +78,7 @@ TableFile::TableFile(const std::string& path, std::span<const std::string> colum
   for (const std::string& column : columns) {
     const bool first = keys_.empty();
     if (format_ == TableFormat::kJsonLines) {
-      keys_.push_back((first ? "{" : ",") + json_text(column) + ":");
+      keys_.push_back((first ? "{" : ",") + json_text(nlohmann::json(column)) + ":");
       continue;
     }
     keys_.emplace_back(first ? "" : ",");

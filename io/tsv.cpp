@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <system_error>
-
 #include "io/error.hpp"
+#include "io/parsed_number.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -91,10 +89,7 @@ const std::string& TsvReader::text(std::size_t i) const {
 template <class Number>
 Number TsvReader::parsed(std::size_t i) const {
   const std::string& field = text(i);
-  Number number{};
-  const char* const end = field.data() + field.size();
-  const auto [rest, fault] = std::from_chars(field.data(), end, number);
-  if (fault == std::errc() && rest == end) return number;
+  if (const auto number = parsed_number<Number>(field)) return *number;
   refuse(fmt::format("field {} is '{}', which is not the number that belongs there", i + 1, field));
 }
 

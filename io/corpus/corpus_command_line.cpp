@@ -6,6 +6,7 @@
 #include "io/bytes.hpp"
 #include "io/command_line.hpp"
 #include "io/error.hpp"
+#include "io/progress_option.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -20,12 +21,6 @@ struct Texts {
   std::string texture_size, lod, memory, progress = "auto";
   bool strict = false, texmetro_seams = false;
 };
-
-void describe_progress(CLI::App& app, Texts& texts) {
-  app.add_option("--progress", texts.progress, "progress on standard error")
-      ->check(CLI::IsMember({"auto", "always", "never"}))
-      ->type_name("auto|always|never");
-}
 
 CLI::App* describe_plan(CLI::App& app, Texts& texts) {
   CLI::App* const plan = app.add_subcommand(
@@ -49,7 +44,7 @@ CLI::App* describe_plan(CLI::App& app, Texts& texts) {
   plan->add_flag("--texmetro-seams", texts.texmetro_seams, "as of measure");
   plan->add_option("--jobs", texts.plan.jobs, "models to look at side by side (default: the CPUs)")
       ->type_name("K");
-  describe_progress(*plan, texts);
+  add_progress_option(*plan, texts.progress);
   return plan;
 }
 
@@ -84,7 +79,7 @@ CLI::App* describe_run(CLI::App& app, Texts& texts) {
                   "directory for scratch (default: TMPDIR, /var/tmp)")
       ->type_name("DIR");
   run->add_flag("-q,--quiet", texts.run.quiet, "print errors only");
-  describe_progress(*run, texts);
+  add_progress_option(*run, texts.progress);
   return run;
 }
 
@@ -111,11 +106,6 @@ CLI::App* describe_gather(CLI::App& app, Texts& texts) {
   return gather;
 }
 
-ProgressMode progress_of(const std::string& text) {
-  if (text == "always") return ProgressMode::kAlways;
-  return text == "never" ? ProgressMode::kNever : ProgressMode::kAuto;
-}
-
 /// Checked by the parser of `measure` itself.
 std::vector<std::string> measure_arguments(const Texts& texts) {
   std::vector<std::string> arguments;
@@ -134,13 +124,13 @@ std::vector<std::string> measure_arguments(const Texts& texts) {
 
 CorpusPlanOptions checked_plan(Texts& texts) {
   texts.plan.arguments = measure_arguments(texts);
-  texts.plan.progress = progress_of(texts.progress);
+  texts.plan.progress = progress_mode(texts.progress);
   return texts.plan;
 }
 
 CorpusRunOptions checked_run(Texts& texts) {
   if (!texts.memory.empty()) texts.run.memory_bytes = parse_bytes(texts.memory);
-  texts.run.progress = progress_of(texts.progress);
+  texts.run.progress = progress_mode(texts.progress);
   return texts.run;
 }
 

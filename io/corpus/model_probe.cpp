@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
-#include <system_error>
 #include <utility>
 
 #include "io/error.hpp"
+#include "io/parsed_number.hpp"
 #include "io/tsv.hpp"
 
 namespace atlasgauge {
@@ -23,11 +22,8 @@ constexpr const char* kModel = "model";
 
 template <class Number>
 Number number_in(const std::string& field, std::string_view line) {
-  Number number{};
-  const char* const end = field.data() + field.size();
-  const auto [rest, fault] = std::from_chars(field.data(), end, number);
-  if (fault != std::errc() || rest != end) refuse(line);
-  return number;
+  if (const auto number = parsed_number<Number>(field)) return *number;
+  refuse(line);
 }
 
 InputFile file_in(const std::vector<std::string>& fields, std::string_view line) {

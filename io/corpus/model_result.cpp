@@ -16,6 +16,7 @@
 #include "io/file/output_file.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/image/image_module.hpp"
+#include "io/json/json_text.hpp"
 #include "io/program_identity.hpp"
 
 namespace atlasgauge {
@@ -25,11 +26,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kMeasured = "measured";
 constexpr const char* kFailed = "failed";
-
-/// Texts may hold any bytes; JSON holds UTF-8 only.
-std::string line_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
 
 Json head_of(const ModelResult& result, std::string_view report) {
   return {{"model", result.model},
@@ -122,7 +118,7 @@ void ResultStore::write(const std::string& digest, const ModelResult& result,
   const std::string folder = folder_ + "/" + digest.substr(0, 2);
   make_output_folder(folder);
   OutputFile file(path_of(digest));
-  file.append(line_of(head_of(result, report)));
+  file.append(json_text(head_of(result, report)) + "\n");
   file.append(report);
   file.commit();
   sync_folder(folder);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/error.hpp"
+#include "io/json/json_text.hpp"
 #include "stream/engine/quantiles.hpp"
 
 namespace atlasgauge {
@@ -93,16 +94,11 @@ bool contains(const Keys& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-/// Names that are not UTF-8 get replacement characters.
-std::string text_of(const Json& value, int indentation = -1) {
-  return value.dump(indentation, ' ', false, Json::error_handler_t::replace);
-}
-
 /// A value that ends a line, its own lines one step further in. Texts hold no line ends of their
 /// own.
 std::string indented(const Json& value) {
   std::string text;
-  for (const char c : text_of(value, 1)) {
+  for (const char c : json_text(value, 1)) {
     text += c;
     if (c == '\n') text += ' ';
   }
@@ -113,7 +109,7 @@ std::string indented(const Json& value) {
 std::string element_lines(const Json& array) {
   std::string text;
   for (const Json& element : array) {
-    text += (text.empty() ? "[\n  " : ",\n  ") + text_of(element);
+    text += (text.empty() ? "[\n  " : ",\n  ") + json_text(element);
   }
   return text.empty() ? "[]" : text + "\n ]";
 }
@@ -166,7 +162,7 @@ void Report::visit(const std::function<void(const std::string&, const Json&)>& u
 void Report::write(const std::function<void(std::string_view)>& put) const {
   std::string line = "{\n ";
   visit([&](const std::string& key, const Json& value) {
-    line += text_of(Json(key)) + ": ";
+    line += json_text(Json(key)) + ": ";
     line += is_table(value) ? element_lines(value) : indented(value);
     put(line);
     line = ",\n ";

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/file/output_file.hpp"
+#include "io/json/json_text.hpp"
 #include "io/json/minified_json.hpp"
 #include "io/table_file.hpp"
 #include "measures/base/report.hpp"
@@ -109,7 +110,7 @@ void write_corpus_json_lines(const CorpusRows& rows, const std::string& path) {
     const Json outcome{{"model", row.path},       {"status", row.status()},
                        {"reason", result.reason}, {"warnings", result.warnings},
                        {"digest", row.digest},    {"program", result.program}};
-    std::string line = outcome.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string line = json_text(outcome);
     line.pop_back();
     line += ",\"metadata\":" + json_or_null(rows.metadata(row));
     line += ",\"report\":" + json_or_null(rows.report(row));

@@ -12,6 +12,7 @@
 #include "measures/corpus/corpus.hpp"
 #include "measures/corpus/corpus_rows.hpp"
 #include "measures/corpus/corpus_table.hpp"
+#include "measures/corpus/tally.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -37,8 +38,9 @@ void write_reports(const CorpusRows& rows, const std::string& folder) {
   for (const CorpusRow& row : rows.all()) {
     const auto report = rows.report(row);
     if (!report) continue;
-    const std::filesystem::path path = std::filesystem::path(folder) / (row.path + ".json");
-    refuse_links(folder, row.path + ".json");
+    const std::string name = row.path + ".json";
+    refuse_links(folder, name);
+    const std::filesystem::path path = std::filesystem::path(folder) / name;
     std::error_code fault;
     std::filesystem::create_directories(path.parent_path(), fault);
     if (fault) {
@@ -51,15 +53,14 @@ void write_reports(const CorpusRows& rows, const std::string& folder) {
 
 /// Names what is missing; returns how much that is.
 std::size_t tell(const CorpusRows& rows, const CorpusJob& job) {
-  std::size_t measured = 0, failed = 0, missing = 0;
+  Tally tally;
   for (const CorpusRow& row : rows.all()) {
     if (!row.result) remark("missing: " + row.path);
-    ++(!row.result ? missing : row.is_measured() ? measured : failed);
+    tally.add(row.result);
   }
-  write_file("-", fmt::format("{} models: {} measured, {} failed, {} missing; in {} and {}\n",
-                              rows.all().size(), measured, failed, missing, job.table_path(".csv"),
-                              job.table_path(".jsonl")));
-  return missing;
+  write_file("-", fmt::format("{} models: {}; in {} and {}\n", tally.models(), tally.text(),
+                              job.table_path(".csv"), job.table_path(".jsonl")));
+  return tally.missing;
 }
 
 }  // namespace

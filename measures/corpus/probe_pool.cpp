@@ -1,6 +1,6 @@
 #include "measures/corpus/probe_pool.hpp"
 
-#include <csignal>
+#include <algorithm>
 #include <deque>
 #include <map>
 #include <utility>

@@ -2,8 +2,8 @@
 //
 // - A result is written when the process that measured the model has ended by itself, and the
 //   model's files still are what their digest was made of (for a failure they are read again, as
-//   it may be the disk's). Whatever ends this task before, leaves
-//   nothing, and the next run measures the model again.
+//   it may be the disk's). Whatever ends this task before, leaves nothing, and the next run
+//   measures the model again.
 // - A model that fails by its own fault has a result that says so. One that was refused for lack of
 //   memory or disk is tried once more when all others are done, alone, with everything that the
 //   task has; one that was killed, or whose files changed meanwhile, up to twice. After that it has
@@ -34,6 +34,7 @@
 #include "measures/corpus/corpus_models.hpp"
 #include "measures/corpus/corpus_progress.hpp"
 #include "measures/corpus/model_run.hpp"
+#include "measures/corpus/tally.hpp"
 #include "measures/corpus/task_share.hpp"
 
 namespace atlasgauge {
@@ -56,13 +57,6 @@ std::string slice_name(const CorpusRunOptions& options, const CorpusSettings& se
   throw Error(ErrorKind::kUsage, fmt::format("there is no slice {}; the job has 0 to {}",
                                              *options.slice, settings.slices - 1));
 }
-
-struct Counts {
-  std::size_t before = 0;  ///< had a result already
-  std::size_t measured = 0;
-  std::size_t failed = 0;
-  std::size_t missing = 0;
-};
 
 class SliceRun {
  public:
@@ -89,7 +83,7 @@ class SliceRun {
     progress_.clear();
     if (stop_.taken() != 0) return 128 + stop_.taken();
     if (!options_.quiet) std::fputs(summary().c_str(), stdout);
-    return counts_.missing > 0 ? 1 : 0;
+    return tally_.missing > 0 ? 1 : 0;
   }
 
  private:
@@ -98,7 +92,7 @@ class SliceRun {
   void collect() {
     while (auto model = models_.next(options_.slice)) {
       if (results_.find(model->planned.digest)) {
-        ++counts_.before;
+        ++before_;
       } else {
         waiting_.push_back({std::move(*model)});
       }
@@ -145,12 +139,12 @@ class SliceRun {
     switch (outcome.outcome) {
       case Outcome::kMeasured:
         keep(task, outcome, end.out);
-        ++counts_.measured;
+        ++tally_.measured;
         return tell(fmt::format("measured {} ({:.1f} s, {})", task.path(), end.wall_seconds,
                                 format_bytes(end.peak_resident_bytes)));
       case Outcome::kFailed:
         keep(task, outcome, "");
-        ++counts_.failed;
+        ++tally_.failed;
         return tell("failed " + task.path() + ": " + outcome.reason);
       case Outcome::kRefused:
       case Outcome::kKilled:
@@ -185,17 +179,17 @@ class SliceRun {
 
   void give_up(const Task& task, const std::string& reason) {
     log_.came_to_nothing(task.digest(), reason);
-    ++counts_.missing;
+    ++tally_.missing;
     const std::string line = "missing " + task.path() + ": " + reason;
     if (options_.quiet) progress_.message(line);
     tell(line);
   }
 
-  void tell(const std::string& line) { progress_.model(line, ++done_, total_); }
+  /// Of a model that is counted.
+  void tell(const std::string& line) { progress_.model(line, tally_.models(), total_); }
 
   std::string summary() const {
-    return fmt::format("{} measured, {} failed, {} missing; {} had a result already\n",
-                       counts_.measured, counts_.failed, counts_.missing, counts_.before);
+    return fmt::format("{}; {} had a result already\n", tally_.text(), before_);
   }
 
   const CorpusRunOptions& options_;
@@ -212,8 +206,9 @@ class SliceRun {
   std::vector<Task> again_;  ///< to be measured alone, when all others are done
   std::size_t next_ = 0;     ///< in waiting_
   bool alone_ = false;
-  Counts counts_;
-  std::size_t done_ = 0, total_ = 0;
+  std::size_t before_ = 0;  ///< had a result already
+  Tally tally_;             ///< of the others
+  std::size_t total_ = 0;   ///< of those
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -13,6 +12,7 @@
 #include "io/file/output_file.hpp"
 #include "measures/corpus/corpus.hpp"
 #include "measures/corpus/corpus_models.hpp"
+#include "measures/corpus/tally.hpp"
 
 namespace atlasgauge {
 namespace {
@@ -41,7 +41,7 @@ int show_corpus(const CorpusStatusOptions& options) {
   const CorpusSettings settings = job.read_settings();
   const ResultStore results(job, settings);
   std::map<std::string, Attempts> attempts = read_attempts(job);
-  std::size_t measured = 0, failed = 0, missing = 0;
+  Tally tally;
   std::set<std::uint64_t> slices;
   std::string lines;
   StopSignals stop;
@@ -49,23 +49,19 @@ int show_corpus(const CorpusStatusOptions& options) {
   while (const auto current = models.next()) {
     const PlannedModel& model = current->planned;
     const auto result = results.find(model.digest);
-    if (result && result->measured) {
-      ++measured;
-    } else if (result) {
-      ++failed;
-      lines += fmt::format("failed   {}: {}\n", model.path, result->reason);
-    } else {
-      ++missing;
+    tally.add(result);
+    if (!result) {
       slices.insert(model.slice);
       lines += missing_line(model, attempts[model.digest]);
+    } else if (!result->measured) {
+      lines += fmt::format("failed   {}: {}\n", model.path, result->reason);
     }
   }
   if (stop.taken() != 0) return 128 + stop.taken();
-  write_file("-",
-             fmt::format("{} models in {} slices: {} measured, {} failed, {} missing\n",
-                         measured + failed + missing, settings.slices, measured, failed, missing) +
-                 lines + (slices.empty() ? "" : way_on(job, slices)));
-  return missing > 0 ? 1 : 0;
+  write_file("-", fmt::format("{} models in {} slices: {}\n", tally.models(), settings.slices,
+                              tally.text()) +
+                      lines + (slices.empty() ? "" : way_on(job, slices)));
+  return tally.missing > 0 ? 1 : 0;
 }
 
 }  // namespace atlasgauge

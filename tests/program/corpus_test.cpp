@@ -6,7 +6,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -16,6 +15,7 @@
 
 #include "bench/site.hpp"
 #include "tests/support/child.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/support/input_error.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temp_dir.hpp"
@@ -29,11 +29,6 @@ using Words = std::vector<std::string>;
 
 constexpr const char* kQuad = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4\n";
 constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-
-std::string content(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 class CorpusTest : public testing::Test {
  protected:
@@ -85,7 +80,7 @@ class CorpusTest : public testing::Test {
   std::map<std::string, std::string> results() const {
     std::map<std::string, std::string> results;
     for (const auto& entry : fs::recursive_directory_iterator(job("/results"))) {
-      if (entry.is_regular_file()) results[entry.path().filename()] = content(entry.path());
+      if (entry.is_regular_file()) results[entry.path().filename()] = content_of(entry.path());
     }
     return results;
   }
@@ -122,7 +117,7 @@ TEST_F(CorpusTest, ReportsAreThoseOfMeasure) {
   EXPECT_EQ(gather({"--reports", path("corpus")}).exit_code, 0);
   const ProgramResult alone =
       run_program(ATLASGAUGE_PROGRAM, {path("corpus/RWT1/quad.obj"), "--json", "-"});
-  EXPECT_EQ(content(path("corpus/RWT1/quad.obj.json")), alone.out);
+  EXPECT_EQ(content_of(path("corpus/RWT1/quad.obj.json")), alone.out);
   EXPECT_EQ(rows()[0].at("report"), Json::parse(alone.out));
   EXPECT_FALSE(fs::exists(path("corpus/RWT3/broken.obj.json")));
 }
@@ -143,10 +138,10 @@ TEST_F(CorpusTest, MetadataIsCarriedThrough) {
   run();
   const ProgramResult gathered = gather();
   EXPECT_TRUE(says(gathered.err, "RWT2/metadata.json"));
-  EXPECT_TRUE(says(content(job("/corpus.jsonl")),
+  EXPECT_TRUE(says(content_of(job("/corpus.jsonl")),
                    R"("metadata":{"name":"Quad","tags":["flat","small"],"year":2019.0},)"));
   EXPECT_TRUE(rows()[1].at("metadata").is_null());
-  const std::string csv = content(job("/corpus.csv"));
+  const std::string csv = content_of(job("/corpus.csv"));
   EXPECT_TRUE(says(csv, ",metadata.name,metadata.tags,metadata.year\n"));
   EXPECT_TRUE(says(csv, ",Quad,\"[\"\"flat\"\",\"\"small\"\"]\",2019.0\n"));
 }
@@ -199,7 +194,7 @@ TEST_F(CorpusTest, SlicesTogetherAreTheWhole) {
   plan();
   run({"--jobs", "1"});
   gather();
-  const std::string csv = content(job("/corpus.csv"));
+  const std::string csv = content_of(job("/corpus.csv"));
   const auto whole = results();
   fs::remove_all(job());
   plan({"--tasks", "3"});
@@ -210,7 +205,7 @@ TEST_F(CorpusTest, SlicesTogetherAreTheWhole) {
   EXPECT_EQ(run({"--slice", "1"}).exit_code, 0);
   EXPECT_EQ(gather().exit_code, 0);
   EXPECT_EQ(results(), whole);
-  EXPECT_EQ(content(job("/corpus.csv")), csv);
+  EXPECT_EQ(content_of(job("/corpus.csv")), csv);
 }
 
 TEST_F(CorpusTest, TheCorpusMayMove) {
@@ -317,11 +312,11 @@ TEST_F(CorpusTest, AModelWhoseFilesCannotBeListedIsLookedAtEachTime) {
   plan();
   run();
   // As where its probe was killed: no files, and a digest that is not that of all of them.
-  std::string manifest = content(job("/manifest.tsv"));
+  std::string manifest = content_of(job("/manifest.tsv"));
   const std::size_t line = manifest.find("RWT2");
   const std::size_t files = manifest.rfind('\t', manifest.rfind('\t', line - 2) - 1);
   manifest.replace(files, manifest.rfind('\t', line - 2) - files, "\t0");
-  std::string inputs = content(job("/inputs.tsv"));
+  std::string inputs = content_of(job("/inputs.tsv"));
   const std::size_t first = inputs.rfind('\n', inputs.find("RWT2/")) + 1;
   inputs.erase(first, inputs.rfind('\n', inputs.find("RWT3/")) + 1 - first);
   dir_.write("job/manifest.tsv", manifest);
@@ -334,7 +329,7 @@ TEST_F(CorpusTest, AModelWhoseFilesCannotBeListedIsLookedAtEachTime) {
 TEST_F(CorpusTest, FilesOfDifferentPlansAreRefused) {
   make_models();
   plan();
-  const std::string older = content(job("/manifest.tsv"));
+  const std::string older = content_of(job("/manifest.tsv"));
   fs::rename(path("corpus/RWT1"), path("corpus/RWT4"));
   plan();
   dir_.write("job/manifest.tsv", older);
@@ -361,7 +356,7 @@ TEST_F(CorpusTest, ReportsAreNotWrittenThroughLinks) {
   plan();
   run();
   EXPECT_EQ(gather({"--reports", path("corpus")}).exit_code, 4);
-  EXPECT_EQ(content(victim), "mine");
+  EXPECT_EQ(content_of(victim), "mine");
 }
 
 TEST_F(CorpusTest, MoreJobsThanModelsGetTheMemoryOfTheModels) {
